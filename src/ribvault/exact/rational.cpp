@@ -1,0 +1,69 @@
+#include "ribvault/exact/rational.hpp"
+
+#include <cctype>
+
+#include "ribvault/error.hpp"
+
+namespace ribvault {
+namespace {
+
+[[noreturn]] void not_a_number(std::string_view text, std::string_view what) {
+    throw Error(ErrorKind::usage, std::string(what) + ": '" + std::string(text) +
+                                      "' is not a number; write a decimal such as 0.2 or a fraction such as 1/2.4");
+}
+
+Rational parse_decimal(std::string_view text, std::string_view whole, std::string_view what) {
+    std::string digits;
+    long exponent = 0;
+    std::size_t i = 0;
+    bool negative = false, any = false;
+    if (i < text.size() && (text[i] == '+' || text[i] == '-')) negative = text[i++] == '-';
+    for (bool point = false; i < text.size(); ++i) {
+        if (text[i] == '.' && !point) {
+            point = true;
+        } else if (std::isdigit(static_cast<unsigned char>(text[i]))) {
+            digits += text[i];
+            any = true;
+            if (point) --exponent;
+        } else {
+            break;
+        }
+    }
+    if (!any) not_a_number(whole, what);
+    if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
+        const std::string rest(text.substr(i + 1));
+        std::size_t used = 0;
+        try {
+            exponent += std::stol(rest, &used);
+        } catch (const std::exception&) {
+            not_a_number(whole, what);
+        }
+        i += 1 + used;
+    }
+    if (i != text.size() || exponent > 100 || exponent < -400) not_a_number(whole, what);
+    mpz_class number(digits, 10), power;
+    mpz_ui_pow_ui(power.get_mpz_t(), 10, static_cast<unsigned long>(exponent < 0 ? -exponent : exponent));
+    Rational value = exponent < 0 ? Rational(number, power) : Rational(number * power);
+    value.canonicalize();
+    return negative ? Rational(-value) : value;
+}
+
+}  // namespace
+
+Rational parse_rational(std::string_view text, std::string_view what) {
+    const std::size_t slash = text.find('/');
+    if (slash == std::string_view::npos) return parse_decimal(text, text, what);
+    const Rational denominator = parse_decimal(text.substr(slash + 1), text, what);
+    if (denominator == 0) not_a_number(text, what);
+    return parse_decimal(text.substr(0, slash), text, what) / denominator;
+}
+
+Unit parse_length(std::string_view text, std::string_view what) {
+    const Rational units = parse_rational(text, what) * units_per_mm;
+    if (units.get_den() != 1 || !units.get_num().fits_slong_p() || abs(units) > lattice_bound)
+        throw Error(ErrorKind::usage, std::string(what) + ": '" + std::string(text) +
+                                          "' mm does not lie on the 10 nm lattice; give at most five decimals and at most 10 m");
+    return units.get_num().get_si();
+}
+
+}  // namespace ribvault

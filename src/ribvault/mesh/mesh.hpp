@@ -1,0 +1,28 @@
+// A triangle mesh as read, and where it is placed on the bed.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "ribvault/exact/rational.hpp"
+
+namespace ribvault {
+
+/// Triangles over welded vertices. Coordinates are the file's numbers (binary floats exactly; decimals of text formats
+/// rounded once to the nearest double, a choice made when read), in the file's units and axes.
+struct Mesh {
+    Eigen::Matrix<double, 3, Eigen::Dynamic> vertices;
+    Eigen::Matrix<int, 3, Eigen::Dynamic> triangles;  ///< counter-clockwise seen from outside
+};
+
+/// Exact placement: bed coordinate k (mm) = scale * sign[k] * file coordinate axis[k] + offset[k].
+struct Placement {
+    std::array<int, 3> axis{0, 1, 2};
+    std::array<int, 3> sign{1, 1, 1};
+    Rational scale{1};
+    std::array<Rational, 3> offset{Rational(0), Rational(0), Rational(0)};
+};
+
+}  // namespace ribvault

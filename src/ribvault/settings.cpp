@@ -1,0 +1,31 @@
+#include "ribvault/settings.hpp"
+
+#include "ribvault/error.hpp"
+
+namespace ribvault {
+
+void Settings::check() const {
+    const auto refuse = [](const std::string& message) { throw Error(ErrorKind::usage, message); };
+    const auto within = [&](Unit value, Unit lo, Unit hi, const char* name) {
+        if (value < lo || value > hi)
+            refuse(std::string(name) + " is " + std::to_string(to_mm(value)) + " mm; it must lie between " +
+                   std::to_string(to_mm(lo)) + " and " + std::to_string(to_mm(hi)) + " mm");
+    };
+    within(layer_height, 1000, 1000000, "--layer-height");
+    within(first_layer_height, 1000, 1000000, "--first-layer-height");
+    within(nozzle, 2000, 1000000, "--nozzle");
+    if (nozzle % 2 != 0) refuse("--nozzle: its half must lie on the 10 nm lattice; give at most four decimals");
+    within(support_radius, 1000, nozzle, "--support-radius");
+    within(erosion_step, 0, support_radius, "--erosion-step");
+    within(straighten_step, 0, support_radius, "--straighten-step");
+    within(branch_bonus_length, 0, 100 * nozzle, "--branch-bonus");
+    within(sampling_pitch, 400, nozzle, "--pitch");
+    within(slack, 10, nozzle / 20, "--slack");
+    within(max_gap, 0, 1000000, "--max-gap");
+    if (perimeters < 1 || perimeters > 100) refuse("--perimeters must lie between 1 and 100");
+    if (top_layers < 0 || top_layers > 1000) refuse("--top-layers must lie between 0 and 1000");
+    if (bottom_layers < 0 || bottom_layers > 1000) refuse("--bottom-layers must lie between 0 and 1000");
+    if (valence_limit < 1) refuse("--valence-limit must be at least 1");
+}
+
+}  // namespace ribvault

@@ -1,0 +1,28 @@
+// S_i: the supports of one layer, a planar forest of straight segments (track centre lines), rooted on the shell.
+#pragma once
+
+#include <boost/graph/adjacency_list.hpp>
+#include <cstdint>
+
+#include "ribvault/exact/lattice.hpp"
+
+namespace ribvault {
+
+struct SupportVertex {
+    Point at;
+    bool root = false;  ///< lies on the shell B_i (within two lattice units of the boundary of C_i, on the shell's side)
+};
+
+struct SupportEdge {
+    /// The branch that starts with this edge does not continue on the layer below: this is the first layer on which it is
+    /// printed, so its path reaches the junction (Section 4.4, Figure 20). Known once the layer below is propagated.
+    bool first_layer = false;
+    /// Index of the edge of the layer above from which this one came (edges numbered in insertion order), or none.
+    std::int32_t above = -1;
+};
+
+/// A forest: every connected component is a tree and has at least one root. Vertex degree is the valence of equation (4).
+using SupportForest =
+    boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, SupportVertex, SupportEdge>;
+
+}  // namespace ribvault
