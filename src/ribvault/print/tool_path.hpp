@@ -1,0 +1,29 @@
+// What the printer does on one layer: tracks in the order in which they are printed.
+#pragma once
+
+#include <vector>
+
+#include "ribvault/settings.hpp"
+#include "ribvault/vault/support_forest.hpp"
+
+namespace ribvault {
+
+enum class TrackKind { outer_perimeter, inner_perimeter, cover, support };
+
+/// One continuous extrusion: centre line on the lattice, material is within width / 2 of it.
+struct ToolPath {
+    TrackKind kind = TrackKind::support;
+    Unit width = 0;
+    bool closed = false;  ///< the last point joins the first
+    std::vector<Point> points;
+};
+
+/// The tracks of layer i in printing order: perimeters, covers, supports (Section 4.4).
+struct LayerPaths {
+    int layer = 0;
+    std::vector<ToolPath> paths;
+    int gaps = 0;           ///< how many branches stop one track width short of their junction (Section 4.4)
+    Unit gap_length = 0;    ///< what these gaps take from the supports' length, in lattice units
+};
+
+}  // namespace ribvault
