@@ -1,0 +1,68 @@
+#include "ribvault/slice/cavity.hpp"
+
+#include "ribvault/exact/nearest_segment.hpp"
+#include "ribvault/slice/lattice_clip.hpp"
+
+namespace ribvault {
+namespace {
+
+/// Lattice units that rounding may take away: see erode_slice.
+constexpr double rounding = 3;
+
+/// Is every point of the segment within radius of one of the tree's segments? Exact when it says yes: a piece whose two
+/// ends are within the radius of the same segment is, because the set within a radius of a segment is convex. Says no
+/// when halving eight times does not find such pieces.
+bool within_radius(const Segment& piece, const NearestSegment& tree, Unit radius, int depth = 0) {
+    const Point middle{(piece.a.x + piece.b.x) / 2, (piece.a.y + piece.b.y) / 2};
+    for (Point p : {middle, piece.a, piece.b}) {
+        const Segment& near = tree.segments()[tree.nearest(p).index];
+        if (compare_distance(piece.a, near, radius) <= 0 && compare_distance(piece.b, near, radius) <= 0) return true;
+    }
+    if (depth == 8 || squared_length(piece.b - piece.a) < 4) return false;
+    return within_radius({piece.a, middle}, tree, radius, depth + 1) &&
+           within_radius({middle, piece.b}, tree, radius, depth + 1);
+}
+
+}  // namespace
+
+Region erode_slice(const Slice& slice, const Settings& s) {
+    return offset(slice.rounded, -(static_cast<double>(s.perimeters) * static_cast<double>(s.nozzle) + rounding));
+}
+
+Region intersect(const Region& a, const Region& b) {
+    if (a.empty() || b.empty()) return {};
+    return clip(ClipperLib::ctIntersection, a, b);
+}
+
+Cavity make_cavity(int layer, Region region, const Settings& s) {
+    Cavity cavity{layer, std::move(region), {}};
+    if (!cavity.region.empty())
+        cavity.deep = offset(cavity.region, -static_cast<double>(s.support_radius - s.slack), ClipperLib::jtRound,
+                             static_cast<double>(s.slack) / 4);
+    return cavity;
+}
+
+Region overhang_over_cavity(const Cavity& cavity, const Slice& slice_above, const Region& cavity_above, const Settings& s) {
+    if (cavity.deep.empty()) return {};
+    Region hanging = clip(ClipperLib::ctDifference, cavity.deep, cavity_above);
+    if (hanging.empty()) return {};
+    if (s.top_layers == 0) {
+        // Without covers the cavity may reach beyond the slice above; what is not printed needs no support.
+        hanging = intersect(hanging, offset(slice_above.rounded, rounding));
+        if (hanging.empty()) return {};
+    }
+    const Region thick = offset(hanging, -0.6 * static_cast<double>(s.slack));
+    if (thick.size() == hanging.size()) return hanging;
+    NearestSegment shell(edges_of(cavity.region));
+    Region kept;
+    for (Contour& contour : hanging) {
+        const bool hole = signed_area({contour}) < 0;
+        bool tie = !hole && offset({contour}, -0.6 * static_cast<double>(s.slack)).empty();
+        for (std::size_t i = 0; tie && i < contour.size(); ++i)
+            tie = within_radius({contour[i], contour[(i + 1) % contour.size()]}, shell, s.support_radius);
+        if (!tie) kept.push_back(std::move(contour));
+    }
+    return kept;
+}
+
+}  // namespace ribvault

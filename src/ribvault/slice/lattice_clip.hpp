@@ -1,0 +1,54 @@
+// Clipper on lattice regions: proposals for what is ours to place; nothing here decides.
+#pragma once
+
+#include <polyclipping/clipper.hpp>
+
+#include "ribvault/exact/lattice.hpp"
+
+namespace ribvault {
+
+inline ClipperLib::Path to_clipper(const Contour& contour) {
+    ClipperLib::Path path;
+    path.reserve(contour.size());
+    for (Point p : contour) path.emplace_back(p.x, p.y);
+    return path;
+}
+inline ClipperLib::Paths to_clipper(const Region& region) {
+    ClipperLib::Paths paths;
+    paths.reserve(region.size());
+    for (const Contour& c : region) paths.push_back(to_clipper(c));
+    return paths;
+}
+inline Region from_clipper(const ClipperLib::Paths& paths) {
+    Region region;
+    region.reserve(paths.size());
+    for (const ClipperLib::Path& path : paths) {
+        Contour contour;
+        contour.reserve(path.size());
+        for (const ClipperLib::IntPoint& p : path) contour.push_back({p.X, p.Y});
+        if (contour.size() >= 3) region.push_back(std::move(contour));
+    }
+    return region;
+}
+
+/// Boolean operation with the non-zero rule on both operands.
+inline Region clip(ClipperLib::ClipType operation, const Region& subject, const Region& clip) {
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(to_clipper(subject), ClipperLib::ptSubject, true);
+    clipper.AddPaths(to_clipper(clip), ClipperLib::ptClip, true);
+    ClipperLib::Paths result;
+    clipper.Execute(operation, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    return from_clipper(result);
+}
+
+/// Region moved outwards (delta > 0) or inwards (delta < 0) by |delta| units.
+inline Region offset(const Region& region, double delta, ClipperLib::JoinType join = ClipperLib::jtSquare,
+                     double arc_tolerance = 25) {
+    ClipperLib::ClipperOffset offsetter(2.0, arc_tolerance);
+    offsetter.AddPaths(to_clipper(region), join, ClipperLib::etClosedPolygon);
+    ClipperLib::Paths result;
+    offsetter.Execute(result, delta);
+    return from_clipper(result);
+}
+
+}  // namespace ribvault
