@@ -18,6 +18,17 @@ struct ToolPath {
     std::vector<Point> points;
 };
 
+/// Where the nozzle stands after printing a path with at least one point.
+inline Point end_of(const ToolPath& path) { return path.closed ? path.points.front() : path.points.back(); }
+
+/// Length of a path's centre line in lattice units, the closing segment included.
+inline double length(const ToolPath& path) {
+    double sum = 0;
+    for (std::size_t i = 1; i < path.points.size(); ++i) sum += length(path.points[i] - path.points[i - 1]);
+    if (path.closed && path.points.size() > 1) sum += length(path.points.front() - path.points.back());
+    return sum;
+}
+
 /// The tracks of layer i in printing order: perimeters, covers, supports (Section 4.4).
 struct LayerPaths {
     int layer = 0;
