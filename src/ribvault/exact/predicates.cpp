@@ -42,6 +42,9 @@ SquaredDistance squared_distance(Point p, const Segment& s) {
     const std::int64_t along = u.x * v.x + u.y * v.y, l2 = squared_length(u);
     if (along <= 0) return {squared_length(v), 1};
     if (along >= l2) return {squared_length(p - s.b), 1};
+    // Axis-parallel segments give whole numbers, so that equal distances to different ones compare equal at once.
+    if (u.x == 0) return {static_cast<__int128>(v.x) * v.x, 1};
+    if (u.y == 0) return {static_cast<__int128>(v.y) * v.y, 1};
     const std::int64_t c = cross(s.a, s.b, p);
     return {static_cast<__int128>(c) * c, l2};
 }
@@ -54,6 +57,7 @@ int compare_distance(Point p, const Segment& s, Unit radius) {
 }
 
 int compare(const SquaredDistance& a, const SquaredDistance& b) {
+    if (a.denominator == b.denominator) return (a.numerator > b.numerator) - (a.numerator < b.numerator);
     // Each conversion and product rounds once with relative error 2^-64; the two sides together by less than 2^-61.
     const long double left = static_cast<long double>(a.numerator) * static_cast<long double>(b.denominator);
     const long double right = static_cast<long double>(b.numerator) * static_cast<long double>(a.denominator);

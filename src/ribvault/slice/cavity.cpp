@@ -1,5 +1,8 @@
 #include "ribvault/slice/cavity.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
 
@@ -51,16 +54,15 @@ Region overhang_over_cavity(const Cavity& cavity, const Slice& slice_above, cons
         hanging = intersect(hanging, offset(slice_above.rounded, rounding));
         if (hanging.empty()) return {};
     }
-    const Region thick = offset(hanging, -0.6 * static_cast<double>(s.slack));
-    if (thick.size() == hanging.size()) return hanging;
-    NearestSegment shell(edges_of(cavity.region));
+    NearestSegment shell;
     Region kept;
-    for (Contour& contour : hanging) {
-        const bool hole = signed_area({contour}) < 0;
-        bool tie = !hole && offset({contour}, -0.6 * static_cast<double>(s.slack)).empty();
-        for (std::size_t i = 0; tie && i < contour.size(); ++i)
-            tie = within_radius({contour[i], contour[(i + 1) % contour.size()]}, shell, s.support_radius);
-        if (!tie) kept.push_back(std::move(contour));
+    for (Region& piece : connected_pieces(hanging)) {
+        bool tie = offset(piece, -0.6 * static_cast<double>(s.slack)).empty();
+        if (tie && shell.empty()) shell = NearestSegment(edges_of(cavity.region));
+        for (const Contour& contour : piece)
+            for (std::size_t i = 0; tie && i < contour.size(); ++i)
+                tie = within_radius({contour[i], contour[(i + 1) % contour.size()]}, shell, s.support_radius);
+        if (!tie) std::move(piece.begin(), piece.end(), std::back_inserter(kept));
     }
     return kept;
 }

@@ -41,6 +41,22 @@ inline Region clip(ClipperLib::ClipType operation, const Region& subject, const 
     return from_clipper(result);
 }
 
+/// The connected pieces of a region, each an outer contour followed by its holes.
+inline std::vector<Region> connected_pieces(const Region& region) {
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(to_clipper(region), ClipperLib::ptSubject, true);
+    ClipperLib::PolyTree tree;
+    clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    std::vector<Region> pieces;
+    for (const ClipperLib::PolyNode* node = tree.GetFirst(); node; node = node->GetNext()) {
+        if (node->IsHole()) continue;
+        ClipperLib::Paths paths{node->Contour};
+        for (const ClipperLib::PolyNode* hole : node->Childs) paths.push_back(hole->Contour);
+        pieces.push_back(from_clipper(paths));
+    }
+    return pieces;
+}
+
 /// Region moved outwards (delta > 0) or inwards (delta < 0) by |delta| units.
 inline Region offset(const Region& region, double delta, ClipperLib::JoinType join = ClipperLib::jtSquare,
                      double arc_tolerance = 25) {

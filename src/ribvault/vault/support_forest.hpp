@@ -2,7 +2,6 @@
 #pragma once
 
 #include <boost/graph/adjacency_list.hpp>
-#include <cstdint>
 
 #include "ribvault/exact/lattice.hpp"
 
@@ -17,8 +16,6 @@ struct SupportEdge {
     /// The branch that starts with this edge does not continue on the layer below: this is the first layer on which it is
     /// printed, so its path reaches the junction (Section 4.4, Figure 20). Known once the layer below is propagated.
     bool first_layer = false;
-    /// Index of the edge of the layer above from which this one came (edges numbered in insertion order), or none.
-    std::int32_t above = -1;
 };
 
 /// A forest: every connected component is a tree and has at least one root. Vertex degree is the valence of equation (4).

@@ -1,0 +1,139 @@
+#include "ribvault/vault/copy_supports.hpp"
+
+#include <algorithm>
+
+namespace ribvault {
+namespace {
+
+/// A place on a segment where it meets the boundary: numerator / denominator of the way from its first to its last point.
+struct Meeting {
+    std::int64_t numerator, denominator;  ///< 0 <= numerator <= denominator
+    bool operator<(const Meeting& o) const {
+        return static_cast<__int128>(numerator) * o.denominator < static_cast<__int128>(o.numerator) * denominator;
+    }
+    Point on(const Segment& s) const {
+        const double t = static_cast<double>(numerator) / static_cast<double>(denominator);
+        return {s.a.x + round_to_lattice(t * static_cast<double>(s.b.x - s.a.x)),
+                s.a.y + round_to_lattice(t * static_cast<double>(s.b.y - s.a.y))};
+    }
+};
+
+void find_meetings(const Segment& s, const CavityBoundary& boundary, std::vector<Meeting>& meetings) {
+    meetings.clear();
+    Box box;
+    box.add(s.a), box.add(s.b);
+    boundary.edges.visit(box, [&](std::uint32_t k) {
+        const Segment& e = boundary.edges.segments()[k];
+        if (!segments_touch(s, e)) return;
+        std::int64_t from = cross(e.a, e.b, s.a), to = cross(e.a, e.b, s.b);
+        if (from == to) return;  // along the edge: its neighbours give the places
+        if (from < 0 || to > 0) from = -from, to = -to;
+        // from >= 0 >= to now, and from - to > 0 stays below 2^64 only after halving for very long segments.
+        if (from > (std::int64_t{1} << 61) || to < -(std::int64_t{1} << 61)) from >>= 2, to >>= 2;
+        meetings.push_back({from, from - to});
+    });
+    std::sort(meetings.begin(), meetings.end());
+    meetings.erase(std::unique(meetings.begin(), meetings.end(),
+                               [](const Meeting& a, const Meeting& b) { return !(a < b) && !(b < a); }),
+                   meetings.end());
+}
+
+class Copier {
+public:
+    Copier(const SupportForest& above, const CavityBoundary& boundary)
+        : above_(above), boundary_(boundary), vertex_(num_vertices(above), -1), inside_(num_vertices(above)) {}
+
+    CopiedSupports run() {
+        for (std::size_t v = 0; v < inside_.size(); ++v)
+            inside_[v] = boundary_.location.locate(above_[v].at) == Side::inside;
+        std::int32_t index = 0;
+        for (auto [e, end] = edges(above_); e != end; ++e, ++index) copy_edge(source(*e, above_), target(*e, above_), index);
+        for (std::size_t v = 0; v < inside_.size(); ++v)
+            if (above_[v].root && inside_[v] && vertex_[v] >= 0) prolong(v);
+        return std::move(result_);
+    }
+
+private:
+    std::size_t vertex(std::size_t v) {
+        if (vertex_[v] < 0) vertex_[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{above_[v].at, false}, result_.forest));
+        return static_cast<std::size_t>(vertex_[v]);
+    }
+
+    void add(std::size_t a, std::size_t b, std::int32_t origin) {
+        add_edge(a, b, result_.forest);
+        result_.origin.push_back(origin);
+    }
+
+    void copy_edge(std::size_t a, std::size_t b, std::int32_t index) {
+        const Segment s{above_[a].at, above_[b].at};
+        find_meetings(s, boundary_, meetings_);
+        if (meetings_.empty()) {
+            if (!inside_[a]) return;
+            add(vertex(a), vertex(b), index);
+            result_.inherited.push_back(s);
+            return;
+        }
+        // Between two meetings the wall is on one side; which, is read off at the rounded middle: what to keep of a wall
+        // that runs along the shell within a rounding is a choice.
+        for (std::size_t k = 0; k <= meetings_.size(); ++k) {
+            const Point from = k == 0 ? s.a : meetings_[k - 1].on(s), to = k == meetings_.size() ? s.b : meetings_[k].on(s);
+            if (squared_length(to - from) <= root_tolerance * root_tolerance) continue;
+            const Point middle{(from.x + to.x) / 2, (from.y + to.y) / 2};
+            if (boundary_.location.locate(middle) != Side::inside) continue;
+            const std::size_t va = k == 0 && inside_[a] ? vertex(a) : root(from, k <= 1 ? a : no_vertex);
+            const std::size_t vb = k == meetings_.size() && inside_[b] ? vertex(b) : root(to, k + 1 >= meetings_.size() ? b : no_vertex);
+            add(va, vb, index);
+            result_.inherited.push_back({from, to});
+        }
+    }
+
+    /// A new root at p; the place of the old root v is kept when it is still one, so that walls above each other align.
+    std::size_t root(Point p, std::size_t v) {
+        if (v != no_vertex && above_[v].root && !inside_[v] &&
+            squared_length(above_[v].at - p) <= root_tolerance * root_tolerance)
+            return add_vertex(SupportVertex{above_[v].at, true}, result_.forest);
+        return add_vertex(SupportVertex{place_root(p, boundary_), true}, result_.forest);
+    }
+
+    void prolong(std::size_t v) {
+        SupportForest& forest = result_.forest;
+        const std::size_t own = vertex(v);
+        const Point at = above_[v].at;
+        const NearestSegment::Hit hit = boundary_.edges.nearest(at);
+        const double distance = std::sqrt(hit.distance.value());
+        if (out_degree(own, forest) == 1) {
+            const Point from = forest[*adjacent_vertices(own, forest).first].at;
+            const double l = length(at - from), reach = 2 * distance + 2;
+            const Segment ray{at, {at.x + round_to_lattice(static_cast<double>(at.x - from.x) / l * reach),
+                                   at.y + round_to_lattice(static_cast<double>(at.y - from.y) / l * reach)}};
+            find_meetings(ray, boundary_, meetings_);
+            if (!meetings_.empty()) {
+                forest[own].at = place_root(meetings_.front().on(ray), boundary_);
+                forest[own].root = true;
+                return;
+            }
+        }
+        const Point foot = place_root(nearest_point(at, boundary_.edges.segments()[hit.index]), boundary_);
+        if (squared_length(foot - at) <= root_tolerance * root_tolerance) {
+            forest[own] = {foot, true};
+            return;
+        }
+        add(add_vertex(SupportVertex{foot, true}, forest), own, -1);
+    }
+
+    static constexpr std::size_t no_vertex = static_cast<std::size_t>(-1);
+    const SupportForest& above_;
+    const CavityBoundary& boundary_;
+    std::vector<std::int64_t> vertex_;
+    std::vector<char> inside_;
+    std::vector<Meeting> meetings_;
+    CopiedSupports result_;
+};
+
+}  // namespace
+
+CopiedSupports copy_supports(const SupportForest& above, const CavityBoundary& boundary) {
+    return Copier(above, boundary).run();
+}
+
+}  // namespace ribvault

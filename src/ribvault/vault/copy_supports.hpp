@@ -1,0 +1,20 @@
+// Section 4.1, Copy: the supports of the layer above, fitted to this layer's cavity (Figure 11).
+#pragma once
+
+#include "ribvault/vault/cavity_boundary.hpp"
+#include "ribvault/vault/support_forest.hpp"
+
+namespace ribvault {
+
+struct CopiedSupports {
+    SupportForest forest;
+    std::vector<std::int32_t> origin;  ///< per edge of forest, in its order: the edge above it is a piece of, -1 for prolongations
+    std::vector<Segment> inherited;    ///< the pieces of the layer above inside the cavity, where they were
+};
+
+/// Clips every wall to C_i; where the clip cuts, a root is placed on the shell, so that a tree cut by an inner wall
+/// becomes two. A root left hanging inside C_i is prolonged: straight on when the shell is met within twice its distance,
+/// else to the nearest point of the shell.
+CopiedSupports copy_supports(const SupportForest& above, const CavityBoundary& boundary);
+
+}  // namespace ribvault

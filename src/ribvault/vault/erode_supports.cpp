@@ -1,0 +1,63 @@
+#include "ribvault/vault/erode_supports.hpp"
+
+namespace ribvault {
+
+ErodedSupports erode_supports(const SupportForest& forest, Unit step) {
+    const std::size_t n = num_vertices(forest);
+    struct Edge {
+        std::size_t a, b;
+        bool alive = true;
+    };
+    std::vector<Edge> list;
+    std::vector<std::vector<std::uint32_t>> at(n);
+    for (auto [e, end] = edges(forest); e != end; ++e) {
+        const std::size_t a = source(*e, forest), b = target(*e, forest);
+        at[a].push_back(static_cast<std::uint32_t>(list.size()));
+        at[b].push_back(static_cast<std::uint32_t>(list.size()));
+        list.push_back({a, b});
+    }
+    std::vector<Point> place(n);
+    for (std::size_t v = 0; v < n; ++v) place[v] = forest[v].at;
+
+    for (std::size_t tip = 0; step > 0 && tip < n; ++tip) {
+        if (at[tip].size() != 1 || forest[tip].root) continue;
+        double left = static_cast<double>(step);
+        std::size_t v = tip;
+        std::uint32_t edge = at[tip][0];
+        while (true) {
+            const std::size_t next = list[edge].a == v ? list[edge].b : list[edge].a;
+            const Point along = forest[next].at - forest[v].at;
+            const double l = length(along);
+            if (l > left) {
+                // One unit short of the limit, so that the rounding to the lattice stays within it.
+                const double t = left > 1 ? (left - 1) / l : 0;
+                place[v] = {forest[v].at.x + round_to_lattice(t * static_cast<double>(along.x)),
+                            forest[v].at.y + round_to_lattice(t * static_cast<double>(along.y))};
+                break;
+            }
+            list[edge].alive = false;
+            left -= l;
+            if (forest[next].root || at[next].size() != 2) break;
+            edge = at[next][0] == edge ? at[next][1] : at[next][0];
+            v = next;
+        }
+    }
+
+    ErodedSupports result;
+    result.survives.resize(list.size());
+    std::vector<std::int64_t> vertex(n, -1);
+    const auto keep = [&](std::size_t v) {
+        if (vertex[v] < 0)
+            vertex[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{place[v], forest[v].root}, result.forest));
+        return static_cast<std::size_t>(vertex[v]);
+    };
+    for (std::size_t e = 0; e < list.size(); ++e) {
+        result.survives[e] = list[e].alive && place[list[e].a] != place[list[e].b];
+        if (!result.survives[e]) continue;
+        const std::size_t a = keep(list[e].a), b = keep(list[e].b);
+        add_edge(a, b, result.forest);
+    }
+    return result;
+}
+
+}  // namespace ribvault

@@ -1,0 +1,134 @@
+#include "ribvault/vault/growing_supports.hpp"
+
+#include <algorithm>
+
+namespace ribvault {
+
+GrowingSupports::GrowingSupports(SupportForest forest, const Box& cavity_box, const CavityBoundary& boundary, const Settings& settings)
+    : forest_(std::move(forest)), boundary_(boundary), settings_(settings),
+      grid_(cavity_box, settings.nozzle, settings.nozzle / 2 + settings.support_radius) {
+    for (auto [e, end] = edges(forest_); e != end; ++e) enter(source(*e, forest_), target(*e, forest_));
+}
+
+void GrowingSupports::enter(std::size_t a, std::size_t b) {
+    walls_.push_back({a, b, true});
+    const auto id = static_cast<std::uint32_t>(walls_.size() - 1);
+    grid_.insert(id, segment(id));
+}
+
+void GrowingSupports::connect(std::size_t a, std::size_t b) {
+    add_edge(a, b, forest_);
+    enter(a, b);
+}
+
+bool GrowingSupports::covers(Point p, double radius) const {
+    // Distances here are below 10 mm, so every product below is a whole number under 2^53 but for long walls, whose
+    // relative rounding error of 2^-52 is far below the slack that the radius leaves.
+    const double r2 = radius * radius;
+    return grid_.any_near(p, [&](std::uint32_t w) {
+        if (!walls_[w].alive) return false;
+        const Segment s = segment(w);
+        const double ux = static_cast<double>(s.b.x - s.a.x), uy = static_cast<double>(s.b.y - s.a.y);
+        const double vx = static_cast<double>(p.x - s.a.x), vy = static_cast<double>(p.y - s.a.y);
+        const double along = ux * vx + uy * vy, l2 = ux * ux + uy * uy;
+        if (along <= 0) return vx * vx + vy * vy <= r2;
+        if (along >= l2) {
+            const double wx = vx - ux, wy = vy - uy;
+            return wx * wx + wy * wy <= r2;
+        }
+        const double c = ux * vy - uy * vx;
+        return c * c <= r2 * l2;
+    });
+}
+
+bool GrowingSupports::free_way(Point from, std::size_t to) const {
+    const Segment way{from, forest_[to].at};
+    Box box;
+    box.add(way.a), box.add(way.b);
+    bool blocked = false;
+    grid_.visit(box, [&](std::uint32_t w) {
+        if (blocked || !walls_[w].alive || walls_[w].a == to || walls_[w].b == to) return;
+        const Segment s = segment(w);
+        if (s.a != way.b && s.b != way.b) blocked = segments_touch(way, s);
+    });
+    if (blocked) return false;
+    // A root lies on the shell: the way may meet the boundary there and nowhere else.
+    boundary_.edges.visit(box, [&](std::uint32_t k) {
+        const Segment& e = boundary_.edges.segments()[k];
+        if (blocked || !segments_touch(way, e)) return;
+        blocked = !forest_[to].root || compare_distance(way.b, e, root_tolerance) > 0;
+    });
+    return !blocked;
+}
+
+std::size_t GrowingSupports::split(std::uint32_t wall, Point near) {
+    const Wall old = walls_[wall];
+    const Point at = nearest_point(near, segment(wall));
+    if (at == forest_[old.a].at) return old.a;
+    if (at == forest_[old.b].at) return old.b;
+    walls_[wall].alive = false;
+    remove_edge(old.a, old.b, forest_);
+    const std::size_t v = add_vertex(SupportVertex{at, false}, forest_);
+    connect(old.a, v);
+    connect(v, old.b);
+    return v;
+}
+
+void GrowingSupports::add_wall(Point p) {
+    const NearestSegment::Hit shell = boundary_.edges.nearest(p);
+    const double shell_distance = std::sqrt(shell.distance.value());
+    const auto around = [&](double reach) {
+        const Unit by = static_cast<Unit>(reach) + 1;
+        return Box{{p.x - by, p.y - by}, {p.x + by, p.y + by}};
+    };
+
+    // The nearest wall, searched in growing squares up to the distance of the shell.
+    std::optional<std::uint32_t> wall;
+    SquaredDistance wall_distance{0, 1};
+    double plain = shell_distance;
+    for (double reach = std::min(shell_distance, 2.0 * static_cast<double>(settings_.nozzle));; reach *= 2) {
+        grid_.visit(around(reach), [&](std::uint32_t w) {
+            if (!walls_[w].alive) return;
+            const SquaredDistance d = squared_distance(p, segment(w));
+            const int order = wall ? compare(d, wall_distance) : compare(d, shell.distance);
+            if (order < 0 || (order == 0 && wall && w < *wall)) wall = w, wall_distance = d;
+        });
+        if (wall) plain = std::min(plain, std::sqrt(wall_distance.value()));
+        if (plain <= reach || reach >= shell_distance) break;
+    }
+    const SquaredDistance plain_distance = wall ? wall_distance : shell.distance;
+
+    ++added_;
+    const Unit bonus = settings_.branch_bonus ? settings_.branch_bonus_length : 0;
+    std::vector<std::pair<SquaredDistance, std::size_t>> junctions;
+    if (bonus > 0)
+        grid_.visit(around(plain + static_cast<double>(bonus)), [&](std::uint32_t w) {
+            if (!walls_[w].alive) return;
+            for (const std::size_t v : {walls_[w].a, walls_[w].b}) {
+                if (out_degree(v, forest_) >= static_cast<std::size_t>(settings_.valence_limit)) continue;
+                const SquaredDistance d{squared_length(forest_[v].at - p), 1};
+                if (compare_biased(d, bonus, plain_distance, 0) < 0) junctions.push_back({d, v});
+            }
+        });
+    std::sort(junctions.begin(), junctions.end(), [](const auto& a, const auto& b) {
+        const int order = compare(a.first, b.first);
+        return order != 0 ? order < 0 : a.second < b.second;
+    });
+    junctions.erase(std::unique(junctions.begin(), junctions.end(), [](const auto& a, const auto& b) { return a.second == b.second; }),
+                    junctions.end());
+    for (const auto& [distance, v] : junctions)
+        if (free_way(p, v)) {
+            connect(add_vertex(SupportVertex{p, false}, forest_), v);
+            return;
+        }
+    std::size_t to;
+    if (wall) {
+        to = split(*wall, p);
+    } else {
+        const Point foot = nearest_point(p, boundary_.edges.segments()[shell.index]);
+        to = add_vertex(SupportVertex{place_root(foot, boundary_), true}, forest_);
+    }
+    connect(add_vertex(SupportVertex{p, false}, forest_), to);
+}
+
+}  // namespace ribvault

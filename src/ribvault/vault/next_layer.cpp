@@ -1,0 +1,36 @@
+#include "ribvault/vault/next_layer.hpp"
+
+#include "ribvault/vault/copy_supports.hpp"
+#include "ribvault/vault/detect_unsupported.hpp"
+#include "ribvault/vault/erode_supports.hpp"
+#include "ribvault/vault/grow_supports.hpp"
+#include "ribvault/vault/straighten_supports.hpp"
+
+namespace ribvault {
+
+LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Region& overhang, const Settings& settings) {
+    LayerSupports result;
+    std::vector<char> continues(num_edges(above), 0);
+    if (!cavity.region.empty() && (num_edges(above) > 0 || !overhang.empty())) {
+        const CavityBoundary boundary = prepare_boundary(cavity.region);
+        CopiedSupports copied = copy_supports(above, boundary);
+        ErodedSupports eroded = erode_supports(copied.forest, settings.erosion_step);
+        for (std::size_t e = 0; e < copied.origin.size(); ++e)
+            if (eroded.survives[e] && copied.origin[e] >= 0) continues[static_cast<std::size_t>(copied.origin[e])] = 1;
+        SupportForest propagated = std::move(eroded.forest);
+        if (settings.straighten) {
+            StraightenedSupports straightened = straighten_supports(propagated, boundary, settings.straighten_step);
+            result.blocked = straightened.blocked;
+            propagated = straightened.left_cavity ? copy_supports(straightened.forest, boundary).forest : std::move(straightened.forest);
+        }
+        result.unsupported = unsupported_walls(copied.inherited, propagated, cavity, settings);
+        result.unsupported.insert(result.unsupported.end(), overhang.begin(), overhang.end());
+        const std::uint64_t layer_seed = settings.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(cavity.layer);
+        result.forest = grow_supports(std::move(propagated), result.unsupported, boundary, layer_seed, settings);
+    }
+    std::size_t index = 0;
+    for (auto [e, end] = edges(above); e != end; ++e, ++index) above[*e].first_layer = !continues[index];
+    return result;
+}
+
+}  // namespace ribvault

@@ -1,0 +1,197 @@
+#include "ribvault/vault/straighten_supports.hpp"
+
+#include "ribvault/vault/segment_grid.hpp"
+
+namespace ribvault {
+namespace {
+
+struct Wall {
+    std::size_t a, b;
+    bool alive = true;
+};
+
+/// Do two walls meet otherwise than at a shared end?
+bool collide(const Segment& s, const Segment& t) {
+    if (!segments_touch(s, t)) return false;
+    const bool shared = s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b;
+    return !shared || segments_cross(s, t);
+}
+
+Point move_towards(Point from, double x, double y, Unit step) {
+    const double dx = x - static_cast<double>(from.x), dy = y - static_cast<double>(from.y), d = std::hypot(dx, dy);
+    const double share = d <= static_cast<double>(step) ? 1 : static_cast<double>(step) / d;
+    Point to{from.x + round_to_lattice(share * dx), from.y + round_to_lattice(share * dy)};
+    if (squared_length(to - from) > step * step) {  // only the rounding can have gone beyond the limit
+        const double shorter = std::max(0.0, static_cast<double>(step) - 1) / d;
+        to = {from.x + round_to_lattice(shorter * dx), from.y + round_to_lattice(shorter * dy)};
+    }
+    return to;
+}
+
+class Straightener {
+public:
+    Straightener(const SupportForest& forest, const CavityBoundary& boundary, Unit step)
+        : forest_(forest), boundary_(boundary), step_(step), place_(num_vertices(forest)), at_(num_vertices(forest)),
+          grid_(bounds(forest), units_per_mm, 0) {
+        for (std::size_t v = 0; v < place_.size(); ++v) place_[v] = forest[v].at;
+        for (auto [e, end] = edges(forest); e != end; ++e) add_wall(source(*e, forest), target(*e, forest), false);
+    }
+
+    StraightenedSupports run() {
+        for (std::size_t v = 0; v < place_.size(); ++v) {
+            if (passes(v)) continue;
+            for (std::size_t k = 0, n = at_[v].size(); k < n; ++k)  // what is added on the way needs no visit
+                if (!seen_[at_[v][k]]) straighten_chain(v, at_[v][k]);
+        }
+        return finish();
+    }
+
+private:
+    static Box bounds(const SupportForest& forest) {
+        Box box;
+        for (auto [v, end] = vertices(forest); v != end; ++v) box.add(forest[*v].at);
+        if (box.empty()) box.add({0, 0});
+        return box;
+    }
+    bool passes(std::size_t v) const { return out_degree(v, forest_) == 2 && !forest_[v].root; }
+    Segment segment(const Wall& w) const { return {place_[w.a], place_[w.b]}; }
+
+    void add_wall(std::size_t a, std::size_t b, bool seen) {
+        const auto id = static_cast<std::uint32_t>(walls_.size());
+        walls_.push_back({a, b});
+        at_[a].push_back(id);
+        at_[b].push_back(id);
+        seen_.push_back(seen);
+        grid_.insert(id, segment(walls_.back()));
+    }
+
+    void straighten_chain(std::size_t start, std::uint32_t first) {
+        chain_.assign(1, start);
+        chain_walls_.clear();
+        double total = 0;
+        lengths_.assign(1, 0);
+        for (std::uint32_t wall = first;;) {
+            seen_[wall] = 1;
+            chain_walls_.push_back(wall);
+            const std::size_t v = walls_[wall].a == chain_.back() ? walls_[wall].b : walls_[wall].a;
+            total += length(place_[v] - place_[chain_.back()]);
+            chain_.push_back(v);
+            lengths_.push_back(total);
+            if (!passes(v)) break;
+            wall = at_[v][0] == wall ? at_[v][1] : at_[v][0];
+        }
+        if (chain_.size() < 3 || place_[chain_.front()] == place_[chain_.back()]) return;
+
+        const Point p0 = place_[chain_.front()], pn = place_[chain_.back()];
+        targets_.assign(1, p0);
+        bool arrives = true;
+        for (std::size_t k = 1; k + 1 < chain_.size(); ++k) {
+            const double share = lengths_[k] / total;
+            const double x = static_cast<double>(p0.x) + share * static_cast<double>(pn.x - p0.x);
+            const double y = static_cast<double>(p0.y) + share * static_cast<double>(pn.y - p0.y);
+            const Point from = place_[chain_[k]];
+            targets_.push_back(move_towards(from, x, y, step_));
+            // The rounded chord point may be as much as one unit beyond the limit: then the chain arrives a layer later.
+            arrives = arrives && compare_distance(from, {p0, pn}, step_) <= 0 &&
+                      std::hypot(x - static_cast<double>(from.x), y - static_cast<double>(from.y)) <= static_cast<double>(step_);
+        }
+        targets_.push_back(pn);
+        moved_.clear();
+        if (arrives)
+            moved_.push_back({p0, pn});
+        else
+            for (std::size_t k = 0; k + 1 < targets_.size(); ++k)
+                if (targets_[k] != targets_[k + 1]) moved_.push_back({targets_[k], targets_[k + 1]});
+        for (const std::uint32_t w : chain_walls_) walls_[w].alive = false;
+        if (blocked()) {
+            for (const std::uint32_t w : chain_walls_) walls_[w].alive = true;
+            ++result_.blocked;
+            return;
+        }
+        for (const Segment& s : moved_) result_.left_cavity = result_.left_cavity || meets_shell(s, p0, pn);
+        if (arrives) {
+            add_wall(chain_.front(), chain_.back(), true);
+            return;
+        }
+        for (std::size_t k = 1; k + 1 < chain_.size(); ++k) place_[chain_[k]] = targets_[k];
+        for (std::size_t k = 0; k + 1 < chain_.size(); ++k) add_wall(chain_[k], chain_[k + 1], true);
+    }
+
+    bool blocked() {
+        for (std::size_t i = 0; i < moved_.size(); ++i) {
+            const Segment& s = moved_[i];
+            Box box;
+            box.add(s.a), box.add(s.b);
+            bool hit = false;
+            grid_.visit(box, [&](std::uint32_t w) { hit = hit || (walls_[w].alive && collide(s, segment(walls_[w]))); });
+            for (std::size_t j = i + 2; !hit && j < moved_.size(); ++j) hit = collide(s, moved_[j]);
+            if (hit) return true;
+        }
+        return false;
+    }
+
+    /// Does a moved wall meet the shell anywhere but at a root at the chain's ends?
+    bool meets_shell(const Segment& s, Point p0, Point pn) const {
+        Box box;
+        box.add(s.a), box.add(s.b);
+        bool meets = false;
+        boundary_.edges.visit(box, [&](std::uint32_t k) {
+            const Segment& e = boundary_.edges.segments()[k];
+            if (meets || !segments_touch(s, e)) return;
+            const bool at_start = s.a == p0 && forest_[chain_.front()].root && compare_distance(p0, e, 2 * root_tolerance) <= 0;
+            const bool at_end = s.b == pn && forest_[chain_.back()].root && compare_distance(pn, e, 2 * root_tolerance) <= 0;
+            meets = !at_start && !at_end;
+        });
+        return meets;
+    }
+
+    StraightenedSupports finish() {
+        std::vector<std::int64_t> vertex(place_.size(), -1);
+        const auto keep = [&](std::size_t v) {
+            if (vertex[v] < 0)
+                vertex[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{place_[v], forest_[v].root}, result_.forest));
+            return static_cast<std::size_t>(vertex[v]);
+        };
+        // Two vertices that moved to the same lattice point become one: their wall has no length.
+        std::vector<std::size_t> same(place_.size());
+        for (std::size_t v = 0; v < same.size(); ++v) same[v] = v;
+        const auto find = [&](std::size_t v) {
+            while (same[v] != v) v = same[v];
+            return v;
+        };
+        for (const Wall& w : walls_)
+            if (w.alive && place_[w.a] == place_[w.b]) {
+                const std::size_t a = find(w.a), b = find(w.b);
+                if (a != b) (forest_[b].root ? same[a] : same[b]) = forest_[b].root ? b : a;
+            }
+        for (const Wall& w : walls_) {
+            if (!w.alive || place_[w.a] == place_[w.b]) continue;
+            const std::size_t a = keep(find(w.a)), b = keep(find(w.b));
+            add_edge(a, b, result_.forest);
+        }
+        return std::move(result_);
+    }
+
+    const SupportForest& forest_;
+    const CavityBoundary& boundary_;
+    Unit step_;
+    std::vector<Point> place_;
+    std::vector<std::vector<std::uint32_t>> at_;
+    std::vector<Wall> walls_;
+    std::vector<char> seen_;
+    SegmentGrid grid_;
+    StraightenedSupports result_;
+    std::vector<std::size_t> chain_;
+    std::vector<std::uint32_t> chain_walls_;
+    std::vector<double> lengths_;
+    std::vector<Point> targets_;
+    std::vector<Segment> moved_;
+};
+
+}  // namespace
+
+StraightenedSupports straighten_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step) {
+    return Straightener(forest, boundary, step).run();
+}
+
+}  // namespace ribvault

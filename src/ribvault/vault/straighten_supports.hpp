@@ -1,0 +1,20 @@
+// Section 4.1, Reduction: the straightening operator (Figures 13 and 14).
+#pragma once
+
+#include "ribvault/vault/cavity_boundary.hpp"
+#include "ribvault/vault/support_forest.hpp"
+
+namespace ribvault {
+
+struct StraightenedSupports {
+    SupportForest forest;
+    bool left_cavity = false;  ///< some moved wall meets the boundary of C_i and must be clipped again
+    int blocked = 0;           ///< chains that stayed where they were because they would have crossed another wall
+};
+
+/// Every maximal chain without branches keeps its ends; each vertex between them moves by at most `step` towards the point
+/// at the same fraction of the chain's length on the chord. A chain that arrives becomes one segment. So every point of the
+/// input lies within `step` of the output. The supports stay planar: a chain that would cross another wall stays.
+StraightenedSupports straighten_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step);
+
+}  // namespace ribvault
