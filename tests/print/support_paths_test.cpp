@@ -1,0 +1,270 @@
+#include <catch2/catch.hpp>
+#include <map>
+#include <numeric>
+
+#include "print/geometry.hpp"
+#include "print/random_forest.hpp"
+#include "ribvault/error.hpp"
+#include "ribvault/print/support_paths.hpp"
+
+using namespace ribvault;
+using namespace ribvault::test;
+
+namespace {
+
+constexpr Unit mm = units_per_mm;
+
+LayerPaths support_paths(const SupportForest& forest) {
+    LayerPaths layer;
+    append_support_paths(forest, Settings{}, layer);
+    return layer;
+}
+
+std::vector<std::vector<Point>> points_of(const LayerPaths& layer) {
+    std::vector<std::vector<Point>> all;
+    for (const ToolPath& path : layer.paths) all.push_back(path.points);
+    return all;
+}
+
+/// A forest from its vertices (the first is the root) and edges.
+struct EdgeOf {
+    std::size_t a, b;
+    bool first_layer = false;
+};
+SupportForest forest_of(const std::vector<Point>& vertices, const std::vector<EdgeOf>& edges) {
+    SupportForest forest(vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) forest[i] = {vertices[i], i == 0};
+    for (const EdgeOf& e : edges) add_edge(e.a, e.b, SupportEdge{e.first_layer}, forest);
+    return forest;
+}
+
+/// The forest seen from its starting roots, built without the code under test.
+struct Rooted {
+    std::vector<long> parent;
+    std::vector<bool> first_layer;
+    std::vector<double> reach;
+    std::map<Point, long> at;
+    explicit Rooted(const SupportForest& f)
+        : parent(num_vertices(f), -2), first_layer(num_vertices(f)), reach(num_vertices(f)) {
+        for (std::size_t v = 0; v < num_vertices(f); ++v) at[f[v].at] = static_cast<long>(v);
+        for (std::size_t v = 0; v < num_vertices(f); ++v)
+            if (f[v].root && parent[v] == -2) hang(f, v, -1);
+    }
+    void hang(const SupportForest& f, std::size_t v, long p) {
+        parent[v] = p;
+        for (auto [e, end] = out_edges(v, f); e != end; ++e) {
+            const std::size_t w = target(*e, f);
+            if (static_cast<long>(w) == p) continue;
+            first_layer[w] = f[*e].first_layer;
+            hang(f, w, static_cast<long>(v));
+            reach[v] = std::max(reach[v], reach[w] + length(f[w].at - f[v].at));
+        }
+    }
+};
+
+/// Everything that Section 4.4 asks of a layer's paths; `long_edges` when every edge is longer than two widths.
+void check_paths(const SupportForest& forest, const LayerPaths& layer, bool long_edges) {
+    const Settings settings;
+    const auto width = static_cast<double>(settings.nozzle);
+    const Rooted rooted(forest);
+    std::vector<int> printed_by(num_vertices(forest), -1);  // path that prints the end of the edge to the parent
+    std::vector<int> passed(num_vertices(forest), 0);
+    double sum = 0;
+    std::vector<Segment> printed;
+    for (std::size_t i = 0; i < layer.paths.size(); ++i) {
+        const ToolPath& path = layer.paths[i];
+        REQUIRE(path.kind == TrackKind::support);
+        REQUIRE(path.width == settings.nozzle);
+        REQUIRE_FALSE(path.closed);
+        REQUIRE(path.points.size() >= 2);
+        sum += length(path);
+        for (std::size_t k = 1; k < path.points.size(); ++k) {
+            REQUIRE(path.points[k] != path.points[k - 1]);
+            REQUIRE(rooted.at.count(path.points[k]) == 1);
+            const long v = rooted.at.at(path.points[k]), parent = rooted.parent[v];
+            REQUIRE(parent >= 0);
+            REQUIRE(printed_by[v] == -1);
+            printed_by[v] = static_cast<int>(i);
+            if (k + 1 < path.points.size()) ++passed[v];
+            if (k > 1) REQUIRE(forest[parent].at == path.points[k - 1]);
+            if (k + 1 < path.points.size()) {
+                const double onwards = length(path.points[k + 1] - path.points[k]) + rooted.reach[rooted.at.at(path.points[k + 1])];
+                CHECK(onwards == Approx(rooted.reach[v]).epsilon(1e-12));
+            }
+        }
+        const long first = rooted.at.at(path.points[1]), parent = rooted.parent[first];
+        const Point start = path.points[0];
+        CHECK(distance(start, Segment{forest[parent].at, forest[first].at}) < 1);
+        if (start == forest[parent].at) {
+            const bool first_of_root = rooted.parent[parent] == -1 && passed[parent] == 0;
+            if (first_of_root) ++passed[parent];
+            CHECK((first_of_root || rooted.first_layer[first]));
+        } else {
+            if (long_edges) {
+                CHECK(std::abs(length(start - forest[parent].at) - width) < 1);
+                CHECK_FALSE(rooted.first_layer[first]);
+            }
+            double contact = INFINITY;
+            for (const Segment& s : printed) contact = std::min(contact, distance(start, s));
+            CHECK(contact < width + 1);
+        }
+        for (const Segment& s : segments(path)) printed.push_back(s);
+    }
+    CHECK(std::abs(sum + static_cast<double>(layer.gap_length) - total_length(forest)) <= 2 * layer.gaps + 1);
+    CHECK(static_cast<double>(layer.gap_length) <= layer.gaps * width + 1);
+    for (std::size_t v = 0; v < num_vertices(forest); ++v) {
+        if (rooted.parent[v] < 0) {
+            CHECK(passed[v] == (out_degree(v, forest) > 0 ? 1 : 0));
+            continue;
+        }
+        const auto parent = static_cast<std::size_t>(rooted.parent[v]);
+        const int parents_path = printed_by[parent];
+        if (printed_by[v] >= 0 && parents_path >= 0) CHECK(parents_path <= printed_by[v]);
+        if (printed_by[v] >= 0 && out_degree(v, forest) > 1) CHECK(passed[v] == 1);
+        const double reach = rooted.reach[v] + length(forest[v].at - forest[parent].at);
+        const bool starts_branch = reach < rooted.reach[parent];
+        if (starts_branch && rooted.first_layer[v]) CHECK(printed_by[v] >= 0);
+        if (long_edges) CHECK(printed_by[v] >= 0);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("random forests with long edges: order, junctions, gaps, lengths") {
+    std::mt19937_64 random(20190501);
+    for (int round = 0; round < 60; ++round) {
+        const SupportForest forest = random_forest(random, 1 + round % 5, 5 + round, mm, 5 * mm, 0.2);
+        const LayerPaths layer = support_paths(forest);
+        check_paths(forest, layer, true);
+        CHECK(layer.gap_length == layer.gaps * Settings{}.nozzle);
+    }
+}
+
+TEST_CASE("random forests with edges shorter than the gap: still in contact, nothing lost, nothing twice") {
+    std::mt19937_64 random(44);
+    for (int round = 0; round < 60; ++round) {
+        const SupportForest forest = random_forest(random, 1 + round % 3, 10 + 2 * round, 1, mm, round % 2 ? 0.0 : 0.3);
+        check_paths(forest, support_paths(forest), false);
+    }
+}
+
+TEST_CASE("same forest, same paths; what the layer holds already only moves the order of the trees") {
+    std::mt19937_64 random(7);
+    const SupportForest forest = random_forest(random, 12, 20, mm / 10, 3 * mm, 0.1);
+    const LayerPaths once = support_paths(forest), again = support_paths(forest);
+    CHECK(points_of(once) == points_of(again));
+    LayerPaths far;
+    far.paths.push_back({TrackKind::outer_perimeter, 40000, true, {{20 * mm, 20 * mm}, {19 * mm, 20 * mm}, {20 * mm, 19 * mm}}});
+    append_support_paths(forest, Settings{}, far);
+    std::vector<std::vector<Point>> moved = points_of(far), before = points_of(once);
+    CHECK(std::vector(moved.begin() + 1, moved.end()) != before);
+    moved.erase(moved.begin());
+    std::sort(moved.begin(), moved.end());
+    std::sort(before.begin(), before.end());
+    CHECK(moved == before);
+    CHECK(far.gaps == once.gaps);
+}
+
+TEST_CASE("a branch stops one track width short of the trunk, on its first layer it reaches the junction") {
+    const std::vector<Point> vertices{{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 3 * mm}};
+    const LayerPaths later = support_paths(forest_of(vertices, {{0, 1}, {1, 2}, {1, 3}}));
+    CHECK(points_of(later) == std::vector<std::vector<Point>>{{{0, 0}, {5 * mm, 0}, {10 * mm, 0}},
+                                                              {{5 * mm, 40000}, {5 * mm, 3 * mm}}});
+    CHECK(later.gaps == 1);
+    CHECK(later.gap_length == 40000);
+    const LayerPaths first = support_paths(forest_of(vertices, {{0, 1}, {1, 2}, {1, 3, true}}));
+    CHECK(points_of(first) == std::vector<std::vector<Point>>{{{0, 0}, {5 * mm, 0}, {10 * mm, 0}},
+                                                              {{5 * mm, 0}, {5 * mm, 3 * mm}}});
+    CHECK(first.gaps == 0);
+    CHECK(first.gap_length == 0);
+}
+
+TEST_CASE("a branch of exactly one width vanishes, a longer one or one on its first layer does not") {
+    const auto with_branch = [](Unit reach, bool first_layer) {
+        return support_paths(forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, reach}},
+                                       {{0, 1}, {1, 2}, {1, 3, first_layer}}));
+    };
+    CHECK(with_branch(40000, false).paths.size() == 1);
+    CHECK(with_branch(40000, false).gap_length == 40000);
+    CHECK(with_branch(10000, false).gap_length == 10000);
+    CHECK(with_branch(10000, false).gaps == 1);
+    CHECK(with_branch(40001, false).paths.size() == 2);
+    CHECK(with_branch(40001, false).gap_length == 40000);
+    CHECK(with_branch(10000, true).paths.size() == 2);
+    CHECK(with_branch(10000, true).gaps == 0);
+}
+
+TEST_CASE("the gap is measured along a bent branch") {
+    const LayerPaths layer = support_paths(
+        forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 30000}, {6 * mm, 30000}}, {{0, 1}, {1, 2}, {1, 3}, {3, 4}}));
+    REQUIRE(layer.paths.size() == 2);
+    CHECK(layer.paths[1].points == std::vector<Point>{{5 * mm + 10000, 30000}, {6 * mm, 30000}});
+}
+
+TEST_CASE("a branch from a junction inside a gap starts one width from the nearest printed centre line") {
+    const LayerPaths layer = support_paths(
+        forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 15000}, {5 * mm, 4 * mm}, {6 * mm, 15000}},
+                  {{0, 1}, {1, 2}, {1, 3}, {3, 4}, {3, 5}}));
+    REQUIRE(layer.paths.size() == 3);
+    CHECK(layer.paths[1].points.front() == Point{5 * mm, 40000});
+    CHECK(layer.paths[2].points.front() == Point{5 * mm + 25000, 15000});
+    CHECK(layer.gap_length == 65000);
+}
+
+TEST_CASE("the trunk takes the longest way; ties go straight, then to the smaller index") {
+    const auto trunk = [](const std::vector<Point>& vertices, const std::vector<EdgeOf>& edges) {
+        return support_paths(forest_of(vertices, edges)).paths[0].points.back();
+    };
+    const Point left{5 * mm, 5 * mm}, right{5 * mm, -5 * mm}, ahead{10 * mm, 0}, far{5 * mm, 6 * mm};
+    CHECK(trunk({{0, 0}, {5 * mm, 0}, ahead, far}, {{0, 1}, {1, 2}, {1, 3}}) == far);
+    CHECK(trunk({{0, 0}, {5 * mm, 0}, left, ahead, right}, {{0, 1}, {1, 2}, {1, 3}, {1, 4}}) == ahead);
+    CHECK(trunk({{0, 0}, {5 * mm, 0}, left, right}, {{0, 1}, {1, 3}, {1, 2}}) == left);
+    CHECK(trunk({{0, 0}, {5 * mm, 0}, right, left}, {{0, 1}, {1, 3}, {1, 2}}) == right);
+}
+
+TEST_CASE("a tree with several roots starts at the first and ends at the others") {
+    SupportForest forest = forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}}, {{0, 1}, {1, 2}});
+    forest[2].root = true;
+    CHECK(points_of(support_paths(forest)) == std::vector<std::vector<Point>>{{{0, 0}, {5 * mm, 0}, {10 * mm, 0}}});
+}
+
+TEST_CASE("several branches of one root: the first starts at it, the next one width away") {
+    const LayerPaths layer = support_paths(forest_of({{0, 0}, {0, 5 * mm}, {3 * mm, 0}}, {{0, 1}, {0, 2}}));
+    CHECK(points_of(layer) == std::vector<std::vector<Point>>{{{0, 0}, {0, 5 * mm}}, {{40000, 0}, {3 * mm, 0}}});
+}
+
+TEST_CASE("trees follow each other by nearest root") {
+    SupportForest forest(6);
+    for (std::size_t i = 0; i < 6; ++i) {
+        const Unit x = std::array<Unit, 6>{9, 9, 1, 1, 4, 4}[i] * mm;
+        forest[i] = {{x, i % 2 ? 2 * mm : 0}, i % 2 == 0};
+        if (i % 2) add_edge(i - 1, i, forest);
+    }
+    const LayerPaths layer = support_paths(forest);
+    REQUIRE(layer.paths.size() == 3);
+    CHECK(layer.paths[0].points.front().x == 1 * mm);
+    CHECK(layer.paths[1].points.front().x == 4 * mm);
+    CHECK(layer.paths[2].points.front().x == 9 * mm);
+}
+
+TEST_CASE("no edges, no paths; an edge of no length is no path and no gap") {
+    CHECK(support_paths(SupportForest{}).paths.empty());
+    CHECK(support_paths(forest_of({{0, 0}, {mm, 0}}, {})).paths.empty());
+    const LayerPaths layer = support_paths(forest_of({{0, 0}, {mm, 0}, {mm, 0}, {2 * mm, 0}}, {{0, 1}, {1, 2}, {1, 3}}));
+    CHECK(layer.paths.size() == 1);
+    CHECK(layer.gaps == 0);
+}
+
+TEST_CASE("a cycle, a doubled edge and a tree without root are refused with layer and place") {
+    LayerPaths layer;
+    layer.layer = 12;
+    const auto refused = [&](const SupportForest& forest, const char* what) {
+        CHECK_THROWS_WITH(append_support_paths(forest, Settings{}, layer),
+                          Catch::Contains("layer 12") && Catch::Contains(what) && Catch::Contains("1.0"));
+    };
+    refused(forest_of({{0, 0}, {mm, 0}, {mm, mm}}, {{0, 1}, {1, 2}, {2, 0}}), "cycle");
+    refused(forest_of({{0, 0}, {mm, 0}}, {{0, 1}, {0, 1}}), "cycle");
+    SupportForest rootless = forest_of({{0, mm}, {mm, 0}}, {{0, 1}});
+    rootless[0].root = false;
+    refused(rootless, "no root");
+}

@@ -1,0 +1,292 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <optional>
+#include <sstream>
+
+#include "print/geometry.hpp"
+#include "print/random_forest.hpp"
+#include "ribvault/error.hpp"
+#include "ribvault/print/support_paths.hpp"
+#include "ribvault/print/write_gcode.hpp"
+
+using namespace ribvault;
+using namespace ribvault::test;
+
+namespace {
+
+constexpr Unit mm = units_per_mm;
+
+/// What a reader that knows nothing of the writer makes of a text.
+struct Parsed {
+    struct Track {
+        std::string type;
+        Unit width;
+        std::vector<Point> points;
+        double filament;
+        double feed_rate;
+        double primed;  // pushed since the track before, retractions negative
+    };
+    std::vector<Track> tracks;
+    std::vector<double> pushes;  // E without motion
+    std::optional<Unit> z, height;
+    std::optional<int> layer;
+    int travels = 0;
+    double last_feed_rate = 0;
+};
+
+Unit decimal(const std::string& text) {
+    const std::size_t dot = text.find('.');
+    std::string digits = text.substr(0, dot), fraction = dot == std::string::npos ? "" : text.substr(dot + 1);
+    REQUIRE(fraction.size() <= 5);
+    if (dot != std::string::npos) REQUIRE(fraction.back() != '0');
+    fraction.resize(5, '0');
+    return std::stoll(digits + fraction);
+}
+
+Parsed parse(const std::string& text) {
+    Parsed result;
+    std::istringstream lines(text);
+    std::string line, type;
+    Unit width = 0;
+    Point at{};
+    bool in_track = false;
+    double primed = 0;
+    while (std::getline(lines, line)) {
+        const auto after = [&](const char* key) { return line.substr(std::string(key).size()); };
+        if (line.rfind(";LAYER:", 0) == 0) result.layer = std::stoi(after(";LAYER:"));
+        if (line.rfind(";Z:", 0) == 0) result.z = decimal(after(";Z:"));
+        if (line.rfind(";HEIGHT:", 0) == 0) result.height = decimal(after(";HEIGHT:"));
+        if (line.rfind(";TYPE:", 0) == 0) type = after(";TYPE:"), in_track = false;
+        if (line.rfind(";WIDTH:", 0) == 0) width = decimal(after(";WIDTH:"));
+        if (line.empty() || line[0] != 'G') continue;
+        std::istringstream words(line);
+        std::string word, command;
+        words >> command;
+        std::optional<Unit> x, y, e;
+        while (words >> word && word[0] != ';') {
+            if (word[0] == 'X') x = decimal(word.substr(1));
+            if (word[0] == 'Y') y = decimal(word.substr(1));
+            if (word[0] == 'E') e = decimal(word.substr(1));
+            if (word[0] == 'F') result.last_feed_rate = std::stod(word.substr(1));
+        }
+        if (x && y && e) {
+            if (!in_track) {
+                result.tracks.push_back({type, width, {at}, 0, result.last_feed_rate, primed});
+                primed = 0;
+            }
+            in_track = true;
+            at = {*x, *y};
+            result.tracks.back().points.push_back(at);
+            result.tracks.back().filament += to_mm(*e);
+        } else if (x && y) {
+            REQUIRE(command == "G0");
+            at = {*x, *y}, in_track = false, ++result.travels;
+        } else if (e) {
+            result.pushes.push_back(to_mm(*e)), primed += to_mm(*e), in_track = false;
+        }
+    }
+    return result;
+}
+
+LayerPaths layer_of(std::vector<ToolPath> paths, int layer = 3) {
+    LayerPaths all;
+    all.layer = layer;
+    all.paths = std::move(paths);
+    return all;
+}
+
+ToolPath path_of(TrackKind kind, std::vector<Point> points, bool closed = false) {
+    return {kind, 40000, closed, std::move(points)};
+}
+
+std::vector<Point> points_travelled(const ToolPath& path) {
+    std::vector<Point> points = path.points;
+    if (path.closed) points.push_back(path.points.front());
+    return points;
+}
+
+}  // namespace
+
+TEST_CASE("what is written reads back as the same paths on the lattice, and E is volume over filament area") {
+    std::mt19937_64 random(5);
+    for (int round = 0; round < 20; ++round) {
+        LayerPaths layer = layer_of({path_of(TrackKind::outer_perimeter, {{-1, -20 * mm}, {20 * mm, 5}, {-123456, 99999}}, true),
+                                     path_of(TrackKind::inner_perimeter, {{7, 70}, {700, 7000}, {70001, 10}}, true),
+                                     path_of(TrackKind::cover, {{-5 * mm, 0}, {5 * mm + 10, 10 * mm + 10}})},
+                                    round);
+        const Settings settings;
+        const PrinterSettings printer;
+        append_support_paths(random_forest(random, 5, 30, 1, 3 * mm, 0.1), settings, layer);
+        const LayerText written = gcode_layer(layer, settings, printer);
+        const Parsed read = parse(written.text);
+        REQUIRE(read.tracks.size() == layer.paths.size());
+        const double filament_per_mm = 0.4 * 0.2 / (std::numbers::pi / 4 * 1.75 * 1.75);
+        double total = 0, expected = 0;
+        for (std::size_t i = 0; i < layer.paths.size(); ++i) {
+            const ToolPath& path = layer.paths[i];
+            CHECK(read.tracks[i].points == points_travelled(path));
+            CHECK(read.tracks[i].width == path.width);
+            const double mm_of_track = length(path) / mm;
+            CHECK(std::abs(read.tracks[i].filament - mm_of_track * filament_per_mm) < 1.1e-5);
+            total += read.tracks[i].filament;
+            expected += mm_of_track * filament_per_mm;
+        }
+        CHECK(std::abs(total - expected) < 1e-5);
+        CHECK(written.statistics.filament == Approx(expected));
+        double volume = 0;
+        for (double v : written.statistics.volume) volume += v;
+        CHECK(volume == Approx(expected * std::numbers::pi / 4 * 1.75 * 1.75));
+        CHECK(read.travels == written.statistics.travels);
+        CHECK(read.layer == round);
+    }
+}
+
+TEST_CASE("types, widths, heights and statistics by kind") {
+    Settings settings;
+    settings.first_layer_height = 30000;
+    const auto line = [](TrackKind kind, Unit y) { return path_of(kind, {{0, y}, {10 * mm, y}}); };
+    std::vector<ToolPath> paths{path_of(TrackKind::outer_perimeter, {{0, 0}, {3 * mm, 0}, {3 * mm, 4 * mm}}, true),
+                                line(TrackKind::inner_perimeter, mm), line(TrackKind::cover, 2 * mm),
+                                line(TrackKind::support, 3 * mm)};
+    const LayerText first = gcode_layer(layer_of(paths, 0), settings, {}), sixth = gcode_layer(layer_of(paths, 5), settings, {});
+    const Parsed read = parse(sixth.text), bottom = parse(first.text);
+    REQUIRE(read.tracks.size() == 4);
+    CHECK(read.tracks[0].type == "External perimeter");
+    CHECK(read.tracks[1].type == "Perimeter");
+    CHECK(read.tracks[2].type == "Solid infill");
+    CHECK(read.tracks[3].type == "Internal infill");
+    CHECK(bottom.z == 30000);
+    CHECK(bottom.height == 30000);
+    CHECK(read.z == 130000);
+    CHECK(read.height == 20000);
+    CHECK(sixth.statistics.length[0] == Approx(12));
+    CHECK(sixth.statistics.volume[3] == Approx(0.8));
+    CHECK(first.statistics.volume[3] == Approx(1.2));
+    PrintStatistics sum = first.statistics;
+    sum += sixth.statistics;
+    CHECK(sum.length[1] == Approx(20));
+    CHECK(sum.filament == Approx(first.statistics.filament + sixth.statistics.filament));
+    CHECK(sum.travels == first.statistics.travels + sixth.statistics.travels);
+}
+
+TEST_CASE("speeds: supports, the rest, the first layer") {
+    const auto paths = [] {
+        return std::vector<ToolPath>{path_of(TrackKind::cover, {{0, 0}, {mm, 0}}),
+                                     path_of(TrackKind::support, {{0, mm}, {mm, mm}})};
+    };
+    const Parsed upper = parse(gcode_layer(layer_of(paths(), 1), {}, {}).text);
+    REQUIRE(upper.tracks.size() == 2);
+    CHECK(upper.tracks[0].feed_rate == 2400);
+    CHECK(upper.tracks[1].feed_rate == 3600);
+    const Parsed bottom = parse(gcode_layer(layer_of(paths(), 0), {}, {}).text);
+    CHECK(bottom.tracks[0].feed_rate == 1200);
+    CHECK(bottom.tracks[1].feed_rate == 1200);
+}
+
+TEST_CASE("a layer begins and ends retracted; only long travels retract between") {
+    const auto two = [](Unit apart) {
+        return layer_of({path_of(TrackKind::cover, {{0, 0}, {mm, 0}}), path_of(TrackKind::cover, {{mm + apart, 0}, {9 * mm, 0}})});
+    };
+    const LayerText near = gcode_layer(two(150000), {}, {}), far = gcode_layer(two(150001), {}, {});
+    CHECK(parse(near.text).pushes == std::vector<double>{3, -3});
+    CHECK(parse(far.text).pushes == std::vector<double>{3, -3, 3, -3});
+    CHECK(near.statistics.retractions == 1);
+    CHECK(far.statistics.retractions == 2);
+    CHECK(near.statistics.travel == Approx(1.5));
+    PrinterSettings direct;
+    direct.retraction = 0;
+    CHECK(parse(gcode_layer(two(3 * mm), {}, direct).text).pushes.empty());
+}
+
+TEST_CASE("prime surplus before supports, but not near perimeters and not without a retraction") {
+    const ToolPath perimeter = path_of(TrackKind::outer_perimeter, {{0, 0}, {20 * mm, 0}, {20 * mm, 20 * mm}, {0, 20 * mm}}, true);
+    const auto pushes = [&](std::vector<Point> support, Point then) {
+        return gcode_layer(layer_of({perimeter, path_of(TrackKind::support, support),
+                                     path_of(TrackKind::support, {then, then + Point{mm, mm}})}), {}, {});
+    };
+    const LayerText far = pushes({{10 * mm, 10 * mm}, {12 * mm, 10 * mm}}, {12 * mm, 11 * mm});
+    CHECK(parse(far.text).pushes == std::vector<double>{3, -3, 3.15, -3});
+    CHECK(far.statistics.prime_surplus == Approx(0.15));
+    const LayerText near = pushes({{19 * mm, 10 * mm}, {12 * mm, 10 * mm}}, {12 * mm, 11 * mm});
+    CHECK(parse(near.text).pushes == std::vector<double>{3, -3, 3, -3});
+    CHECK(near.statistics.prime_surplus == 0);
+    const LayerText edge = pushes({{19 * mm - 1, 10 * mm}, {12 * mm, 10 * mm}}, {9 * mm, mm + 1});
+    CHECK(parse(edge.text).pushes == std::vector<double>{3, -3, 3.15, -3, 3.15, -3});
+}
+
+TEST_CASE("whether a surplus is due agrees with the plain distance to all perimeters") {
+    std::mt19937_64 random(17);
+    std::uniform_int_distribution<Unit> place(-15 * mm, 15 * mm);
+    LayerPaths layer = layer_of({path_of(TrackKind::outer_perimeter, {{0, 0}}, true)});
+    layer.paths[0].points.clear();
+    for (int i = 0; i < 300; ++i)
+        layer.paths[0].points.push_back({round_to_lattice(8e5 * std::cos(i * 0.021) + 2e5 * std::cos(i * 0.3)),
+                                         round_to_lattice(8e5 * std::sin(i * 0.021) + 2e5 * std::sin(i * 0.3))});
+    for (int i = 0; i < 500; ++i) {
+        const Point start{place(random), place(random)};
+        layer.paths.push_back(path_of(TrackKind::support, {start, start + Point{mm, 0}}));
+    }
+    const Parsed read = parse(gcode_layer(layer, {}, {}).text);
+    REQUIRE(read.tracks.size() == layer.paths.size());
+    int with = 0, without = 0;
+    for (std::size_t i = 1; i < layer.paths.size(); ++i) {
+        double nearest = INFINITY;
+        for (const Segment& s : segments(layer.paths[0])) nearest = std::min(nearest, distance(layer.paths[i].points[0], s));
+        if (length(layer.paths[i].points[0] - end_of(layer.paths[i - 1])) <= 150000) continue;
+        CHECK(read.tracks[i].primed == Approx(nearest <= mm ? 0 : 0.15).margin(1e-9));
+        ++(nearest <= mm ? without : with);
+    }
+    CHECK(with > 50);
+    CHECK(without > 50);
+}
+
+TEST_CASE("a layer's text does not depend on what was written before") {
+    std::mt19937_64 random(23);
+    LayerPaths a = layer_of({}, 1), b = layer_of({}, 2);
+    append_support_paths(random_forest(random, 3, 20, 1000, mm, 0), {}, a);
+    append_support_paths(random_forest(random, 3, 20, 1000, mm, 0), {}, b);
+    const std::string alone = gcode_layer(b, {}, {}).text;
+    gcode_layer(a, {}, {});
+    CHECK(gcode_layer(b, {}, {}).text == alone);
+    CHECK(parse(alone).tracks.front().points.front() == b.paths.front().points.front());
+}
+
+TEST_CASE("an empty layer moves to its height and nothing else") {
+    const LayerText empty = gcode_layer(layer_of({}, 4), {}, {});
+    CHECK(empty.text == ";LAYER_CHANGE\n;LAYER:4\n;Z:1\n;HEIGHT:0.2\nG0 Z1 F9000\n");
+    CHECK(empty.statistics.travels == 0);
+    CHECK(empty.statistics.retractions == 0);
+}
+
+TEST_CASE("the header heats, homes, sets relative extrusion and leaves the filament retracted") {
+    PrinterSettings printer;
+    const std::string header = gcode_header({}, printer, 100);
+    for (const char* part : {"; generated by ribvault\n", ";LAYER_COUNT:100\n", "M190 S60", "M109 S205", "G28", "G90", "M83",
+                             "; layer_height = 0.2\n"})
+        CHECK(header.find(part) != std::string::npos);
+    CHECK(parse(header).pushes == std::vector<double>{-3});
+    printer.bed_temperature = 0;
+    CHECK(gcode_header({}, printer, 1).find("M190") == std::string::npos);
+    CHECK(gcode_footer().find("M104 S0") != std::string::npos);
+}
+
+TEST_CASE("printer settings that cannot be are named") {
+    const auto refused = [](auto change, const char* name) {
+        PrinterSettings printer;
+        change(printer);
+        try {
+            gcode_header({}, printer, 1);
+            FAIL("accepted: " << name);
+        } catch (const Error& error) {
+            CHECK(error.kind() == ErrorKind::usage);
+            CHECK_THAT(error.what(), Catch::Contains(name));
+        }
+    };
+    refused([](PrinterSettings& p) { p.filament_diameter = 0; }, "filament diameter");
+    refused([](PrinterSettings& p) { p.print_speed = -1; }, "print speed");
+    refused([](PrinterSettings& p) { p.travel_speed = NAN; }, "travel speed");
+    refused([](PrinterSettings& p) { p.retraction = -1; }, "retraction");
+    refused([](PrinterSettings& p) { p.prime_surplus = INFINITY; }, "prime surplus");
+}
