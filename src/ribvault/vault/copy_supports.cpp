@@ -40,16 +40,19 @@ void find_meetings(const Segment& s, const CavityBoundary& boundary, std::vector
 
 class Copier {
 public:
-    Copier(const SupportForest& above, const CavityBoundary& boundary)
-        : above_(above), boundary_(boundary), vertex_(num_vertices(above), -1), inside_(num_vertices(above)) {}
+    Copier(const SupportForest& above, const CavityBoundary& boundary, bool shell_holds_tracks)
+        : above_(above), boundary_(boundary), shell_holds_tracks_(shell_holds_tracks), vertex_(num_vertices(above), -1), inside_(num_vertices(above)) {}
 
     CopiedSupports run() {
         for (std::size_t v = 0; v < inside_.size(); ++v)
             inside_[v] = boundary_.location.locate(above_[v].at) == Side::inside;
         std::int32_t index = 0;
         for (auto [e, end] = edges(above_); e != end; ++e, ++index) copy_edge(source(*e, above_), target(*e, above_), index);
-        for (std::size_t v = 0; v < inside_.size(); ++v)
-            if (above_[v].root && inside_[v] && vertex_[v] >= 0) prolong(v);
+        for (std::size_t v = 0; v < inside_.size(); ++v) {
+            const bool dot = out_degree(v, above_) == 0;
+            if (dot && (inside_[v] || !shell_holds_tracks_)) result_.inherited.push_back({above_[v].at, above_[v].at});
+            if (above_[v].root && inside_[v] && (dot || vertex_[v] >= 0)) prolong(v);
+        }
         return std::move(result_);
     }
 
@@ -73,6 +76,7 @@ private:
             result_.inherited.push_back(s);
             return;
         }
+        if (!shell_holds_tracks_) result_.inherited.push_back(s);
         // Between two meetings the wall is on one side; which, is read off at the rounded middle: what to keep of a wall
         // that runs along the shell within a rounding is a choice.
         for (std::size_t k = 0; k <= meetings_.size(); ++k) {
@@ -83,7 +87,7 @@ private:
             const std::size_t va = k == 0 && inside_[a] ? vertex(a) : root(from, k <= 1 ? a : no_vertex);
             const std::size_t vb = k == meetings_.size() && inside_[b] ? vertex(b) : root(to, k + 1 >= meetings_.size() ? b : no_vertex);
             add(va, vb, index);
-            result_.inherited.push_back({from, to});
+            if (shell_holds_tracks_) result_.inherited.push_back({from, to});
         }
     }
 
@@ -124,6 +128,7 @@ private:
     static constexpr std::size_t no_vertex = static_cast<std::size_t>(-1);
     const SupportForest& above_;
     const CavityBoundary& boundary_;
+    bool shell_holds_tracks_;
     std::vector<std::int64_t> vertex_;
     std::vector<char> inside_;
     std::vector<Meeting> meetings_;
@@ -132,8 +137,8 @@ private:
 
 }  // namespace
 
-CopiedSupports copy_supports(const SupportForest& above, const CavityBoundary& boundary) {
-    return Copier(above, boundary).run();
+CopiedSupports copy_supports(const SupportForest& above, const CavityBoundary& boundary, bool shell_holds_tracks) {
+    return Copier(above, boundary, shell_holds_tracks).run();
 }
 
 }  // namespace ribvault

@@ -39,6 +39,11 @@ Region unsupported_walls(const std::vector<Segment>& inherited, const SupportFor
         walls.push_back({propagated[source(*e, propagated)].at, propagated[target(*e, propagated)].at});
         box.add(walls.back().a), box.add(walls.back().b);
     }
+    for (auto [v, end] = vertices(propagated); v != end; ++v)
+        if (out_degree(*v, propagated) == 0) {
+            walls.push_back({propagated[*v].at, propagated[*v].at});
+            box.add(propagated[*v].at);
+        }
     if (walls.empty()) box.add(inherited.front().a);
     SegmentGrid grid(box, units_per_mm, settings.support_radius);
     for (std::uint32_t k = 0; k < walls.size(); ++k) grid.insert(k, walls[k]);

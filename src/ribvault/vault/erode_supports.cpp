@@ -57,6 +57,8 @@ ErodedSupports erode_supports(const SupportForest& forest, Unit step) {
         const std::size_t a = keep(list[e].a), b = keep(list[e].b);
         add_edge(a, b, result.forest);
     }
+    for (std::size_t v = 0; v < n; ++v)
+        if (forest[v].root && vertex[v] < 0 && !at[v].empty()) keep(v);
     return result;
 }
 

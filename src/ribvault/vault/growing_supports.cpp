@@ -8,6 +8,8 @@ GrowingSupports::GrowingSupports(SupportForest forest, const Box& cavity_box, co
     : forest_(std::move(forest)), boundary_(boundary), settings_(settings),
       grid_(cavity_box, settings.nozzle, settings.nozzle / 2 + settings.support_radius) {
     for (auto [e, end] = edges(forest_); e != end; ++e) enter(source(*e, forest_), target(*e, forest_));
+    for (auto [v, end] = vertices(forest_); v != end; ++v)
+        if (out_degree(*v, forest_) == 0) enter(*v, *v);
 }
 
 void GrowingSupports::enter(std::size_t a, std::size_t b) {
@@ -105,7 +107,7 @@ void GrowingSupports::add_wall(Point p) {
         grid_.visit(around(plain + static_cast<double>(bonus)), [&](std::uint32_t w) {
             if (!walls_[w].alive) return;
             for (const std::size_t v : {walls_[w].a, walls_[w].b}) {
-                if (out_degree(v, forest_) >= static_cast<std::size_t>(settings_.valence_limit)) continue;
+                if (out_degree(v, forest_) == 0 || out_degree(v, forest_) >= static_cast<std::size_t>(settings_.valence_limit)) continue;
                 const SquaredDistance d{squared_length(forest_[v].at - p), 1};
                 if (compare_biased(d, bonus, plain_distance, 0) < 0) junctions.push_back({d, v});
             }

@@ -8,12 +8,25 @@
 
 namespace ribvault {
 
+namespace {
+
+/// Straightening may have moved walls over the boundary; dots stay what they are.
+SupportForest clip_again(const SupportForest& forest, const CavityBoundary& boundary) {
+    SupportForest clipped = copy_supports(forest, boundary, true).forest;
+    for (auto [v, end] = vertices(forest); v != end; ++v)
+        if (out_degree(*v, forest) == 0) add_vertex(forest[*v], clipped);
+    return clipped;
+}
+
+}  // namespace
+
 LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Region& overhang, const Settings& settings) {
     LayerSupports result;
     std::vector<char> continues(num_edges(above), 0);
-    if (!cavity.region.empty() && (num_edges(above) > 0 || !overhang.empty())) {
+    if (!cavity.region.empty() && (num_vertices(above) > 0 || !overhang.empty())) {
         const CavityBoundary boundary = prepare_boundary(cavity.region);
-        CopiedSupports copied = copy_supports(above, boundary);
+        const bool shell_holds_tracks = settings.support_radius >= settings.nozzle / 2;
+        CopiedSupports copied = copy_supports(above, boundary, shell_holds_tracks);
         ErodedSupports eroded = erode_supports(copied.forest, settings.erosion_step);
         for (std::size_t e = 0; e < copied.origin.size(); ++e)
             if (eroded.survives[e] && copied.origin[e] >= 0) continues[static_cast<std::size_t>(copied.origin[e])] = 1;
@@ -21,7 +34,7 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         if (settings.straighten) {
             StraightenedSupports straightened = straighten_supports(propagated, boundary, settings.straighten_step);
             result.blocked = straightened.blocked;
-            propagated = straightened.left_cavity ? copy_supports(straightened.forest, boundary).forest : std::move(straightened.forest);
+            propagated = straightened.left_cavity ? clip_again(straightened.forest, boundary) : std::move(straightened.forest);
         }
         result.unsupported = unsupported_walls(copied.inherited, propagated, cavity, settings);
         result.unsupported.insert(result.unsupported.end(), overhang.begin(), overhang.end());

@@ -169,6 +169,8 @@ private:
             const std::size_t a = keep(find(w.a)), b = keep(find(w.b));
             add_edge(a, b, result_.forest);
         }
+        for (std::size_t v = 0; v < place_.size(); ++v)
+            if (out_degree(v, forest_) == 0) keep(v);
         return std::move(result_);
     }
 

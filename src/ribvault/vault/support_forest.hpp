@@ -19,6 +19,9 @@ struct SupportEdge {
 };
 
 /// A forest: every connected component is a tree and has at least one root. Vertex degree is the valence of equation (4).
+/// A tree that erosion has used up leaves its root for one more layer as a dot, an isolated vertex: a track of no length,
+/// whose disc holds up the last stub above it. Without it nothing would: the stub reaches r + ρ beyond the shell at most,
+/// the shell holds up ρ. The disc itself is within r of the shell below, so the dot vanishes.
 using SupportForest =
     boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, SupportVertex, SupportEdge>;
 
