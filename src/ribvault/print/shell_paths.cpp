@@ -27,12 +27,13 @@ Contour from_clipper(const cl::Path& path) {
     return contour;
 }
 
-/// Erosion by a distance in lattice units; `Result` is cl::Paths or cl::PolyTree.
-template <class Result>
-void inset(const cl::Paths& paths, double distance, Result& result) {
+/// Dilation by a distance in lattice units, erosion by a negative one. Mitres keep at least this distance everywhere.
+cl::Paths offset(const cl::Paths& paths, double distance) {
     cl::ClipperOffset offset(miter_limit);
     offset.AddPaths(paths, cl::jtMiter, cl::etClosedPolygon);
-    offset.Execute(result, -distance);
+    cl::Paths result;
+    offset.Execute(result, distance);
+    return result;
 }
 
 void append_in_nearest_order(std::vector<ToolPath> paths, LayerPaths& layer) {
@@ -44,10 +45,8 @@ void append_in_nearest_order(std::vector<ToolPath> paths, LayerPaths& layer) {
 void append_perimeters(const cl::Paths& outline, const Settings& settings, LayerPaths& layer) {
     const double width = static_cast<double>(settings.nozzle);
     for (int j = 0; j < settings.perimeters; ++j) {
-        cl::Paths centre_lines;
-        inset(outline, (j + 0.5) * width, centre_lines);
         std::vector<ToolPath> paths;
-        for (const cl::Path& line : centre_lines) {
+        for (const cl::Path& line : offset(outline, -(j + 0.5) * width)) {
             ToolPath path{j == 0 ? TrackKind::outer_perimeter : TrackKind::inner_perimeter, settings.nozzle, true,
                           from_clipper(line)};
             if (2 * length(path) < width) continue;
@@ -61,17 +60,15 @@ void append_perimeters(const cl::Paths& outline, const Settings& settings, Layer
     }
 }
 
-/// Where centre lines of covers may run, as connected areas with their holes.
+/// Where centre lines of covers may run, as connected areas with their holes. Eroding O_i \ C_i is eroding O_i and
+/// dilating C_i, and keeps Clipper away from the nearly coincident borders of the two.
 std::vector<Region> cover_areas(const cl::Paths& outline, const Region& cavity, const Settings& settings) {
     const double width = static_cast<double>(settings.nozzle);
-    cl::Paths inside, left;
-    inset(outline, settings.perimeters * width, inside);
     cl::Clipper clipper;
-    clipper.AddPaths(inside, cl::ptSubject, true);
-    clipper.AddPaths(to_clipper(cavity), cl::ptClip, true);
-    clipper.Execute(cl::ctDifference, left, cl::pftNonZero, cl::pftNonZero);
+    clipper.AddPaths(offset(outline, -(settings.perimeters + 0.5) * width), cl::ptSubject, true);
+    clipper.AddPaths(offset(to_clipper(cavity), width / 2), cl::ptClip, true);
     cl::PolyTree tree;
-    inset(left, width / 2, tree);
+    clipper.Execute(cl::ctDifference, tree, cl::pftNonZero, cl::pftNonZero);
     std::vector<Region> areas;
     for (const cl::PolyNode* node = tree.GetFirst(); node; node = node->GetNext()) {
         if (node->IsHole()) continue;
