@@ -1,0 +1,11 @@
+// One function a subcommand: adds it to the program's parser; the returned function runs it and returns the exit code.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace ribvault::cli {
+
+std::function<int()> add_generate(CLI::App& app);
+
+}  // namespace ribvault::cli

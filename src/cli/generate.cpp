@@ -1,0 +1,159 @@
+#include <cstdio>
+#include <optional>
+
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "ribvault/pipeline/generate.hpp"
+
+namespace ribvault::cli {
+namespace {
+
+/// What the user wrote, before defaults that depend on other settings are known.
+struct Written {
+    Job job;
+    std::string model, gcode, report, svg, mesh;
+    std::optional<Unit> first_layer_height, support_radius, erosion_step, straighten_step, branch_bonus, pitch;
+    std::optional<Rational> overlap;
+    bool no_straighten = false, no_branch_bonus = false, quiet = false;
+    std::string rotate, up = "z";
+};
+
+template <class Target>
+void add_length(CLI::App* command, const std::string& name, Target& target, const std::string& help) {
+    command->add_option_function<std::string>(
+        name, [&target, name](const std::string& text) { target = parse_length(text, name); }, help)->type_name("MM");
+}
+
+void add_geometry(CLI::App* command, Written& w) {
+    Settings& s = w.job.settings;
+    command->get_formatter()->column_width(38);
+    const std::string geometry = "Geometry";
+    const auto group = command->add_option_group(geometry);
+    add_length(group, "--layer-height", s.layer_height, "h (default 0.2)");
+    add_length(group, "--first-layer-height", w.first_layer_height, "height of layer 0 (default: --layer-height)");
+    add_length(group, "--nozzle", s.nozzle, "d, the width of every track (default 0.4)");
+    group->add_option("--perimeters", s.perimeters, "p (default 1)");
+    group->add_option("--top-layers", s.top_layers, "solid layers under every roof (default 1)");
+    group->add_option("--bottom-layers", s.bottom_layers, "solid layers over every floor (default 1)");
+    add_length(group, "--max-gap", s.max_gap, "close open contours over gaps up to this (default 0.05)");
+    const auto supports = command->add_option_group("Supports (Sections 4.1 to 4.3)");
+    const auto radius = supports->add_option_function<std::string>(
+        "--support-radius", [&w](const std::string& t) { w.support_radius = parse_length(t, "--support-radius"); },
+        "rho of equation (2) (default: half the nozzle)")->type_name("MM");
+    supports->add_option_function<std::string>(
+        "--overlap", [&w](const std::string& t) { w.overlap = parse_rational(t, "--overlap"); },
+        "share of a track that must rest on the layer below; rho = (1 - R) d (default 0.5)")->type_name("R")->excludes(radius);
+    add_length(supports, "--erosion-step", w.erosion_step, "what a free tip loses per layer (default: rho)");
+    supports->add_flag("--no-straighten", w.no_straighten, "leave out the straightening operator");
+    add_length(supports, "--straighten-step", w.straighten_step, "how far a vertex moves per layer (default: rho)");
+    supports->add_flag("--no-branch-bonus", w.no_branch_bonus, "leave out the heuristic of equation (4)");
+    add_length(supports, "--branch-bonus", w.branch_bonus, "its bonus (default: twice the nozzle, 4r)");
+    supports->add_option("--valence-limit", s.valence_limit, "valence from which a junction has no bonus (default 4)");
+    supports->add_option("--seed", s.seed, "of the ties (default 1)");
+    add_length(supports, "--pitch", w.pitch, "spacing of the points to support (default: an eighth of the nozzle)");
+    add_length(supports, "--slack", s.slack, "what the generator keeps clear of the limit (default 0.001)");
+}
+
+void add_placement(CLI::App* command, Written& w) {
+    const auto group = command->add_option_group("Placement");
+    const auto scale = group->add_option_function<std::string>(
+        "--scale", [&w](const std::string& t) { w.job.placement.scale = parse_rational(t, "--scale"); },
+        "multiply the model's size (0.5 or 1/2.4)")->type_name("S");
+    group->add_option_function<std::string>(
+        "--height", [&w](const std::string& t) { w.job.placement.height_mm = parse_rational(t, "--height"); },
+        "scale the model to this height")->type_name("MM")->excludes(scale);
+    group->add_option("--rotate", w.rotate, "turn about the axes, in degrees (multiples of 90 are exact)")->type_name("X,Y,Z");
+    group->add_option("--up", w.up, "the model's axis that points up")->check(CLI::IsMember({"x", "y", "z"}));
+    group->add_option_function<std::string>("--bed", [&w](const std::string& text) {
+        PrinterSettings& p = w.job.printer;
+        char rest = 0;
+        if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.bed_x, &p.bed_y, &p.bed_z, &rest) != 3)
+            throw Error(ErrorKind::usage, "--bed: '" + text + "' is not a size; write for example --bed 250,210,200");
+    }, "size of the printer (default 250,250,250)")->type_name("X,Y,Z");
+}
+
+void add_printer(CLI::App* command, PrinterSettings& p) {
+    const auto group = command->add_option_group("Printer");
+    group->add_option("--filament-diameter", p.filament_diameter, "mm")->capture_default_str();
+    group->add_option("--temperature", p.nozzle_temperature, "nozzle, degrees C")->capture_default_str();
+    group->add_option("--bed-temperature", p.bed_temperature, "degrees C")->capture_default_str();
+    group->add_option("--print-speed", p.print_speed, "perimeters and covers, mm/s")->capture_default_str();
+    group->add_option("--support-speed", p.support_speed, "supports, mm/s")->capture_default_str();
+    group->add_option("--first-layer-speed", p.first_layer_speed, "mm/s")->capture_default_str();
+    group->add_option("--travel-speed", p.travel_speed, "mm/s")->capture_default_str();
+    group->add_option("--retraction", p.retraction, "mm of filament")->capture_default_str();
+    group->add_option("--retraction-speed", p.retraction_speed, "mm/s")->capture_default_str();
+    group->add_option("--prime-surplus", p.prime_surplus, "share of the retraction added before support paths")->capture_default_str();
+}
+
+void set_rotation(Written& w) {
+    if (w.rotate.empty()) return;
+    std::vector<std::string> parts;
+    for (std::size_t from = 0; from <= w.rotate.size();) {
+        const std::size_t comma = std::min(w.rotate.find(',', from), w.rotate.size());
+        parts.push_back(w.rotate.substr(from, comma - from));
+        from = comma + 1;
+    }
+    if (parts.size() != 3) throw Error(ErrorKind::usage, "--rotate: '" + w.rotate + "' is not three angles; write for example --rotate 90,0,0");
+    for (std::size_t k = 0; k < 3; ++k) w.job.placement.rotate_degrees[k] = parse_rational(parts[k], "--rotate");
+}
+
+/// Defaults that depend on other settings.
+void complete(Written& w) {
+    Settings& s = w.job.settings;
+    s.first_layer_height = w.first_layer_height.value_or(s.layer_height);
+    s.support_radius = w.support_radius.value_or(s.nozzle / 2);
+    if (w.overlap) {
+        const Rational radius = (1 - *w.overlap) * s.nozzle;
+        if (radius.get_den() != 1) throw Error(ErrorKind::usage, "--overlap: (1 - R) times the nozzle does not lie on the 10 nm lattice; use fewer decimals");
+        s.support_radius = radius.get_num().get_si();
+    }
+    s.erosion_step = w.erosion_step.value_or(s.support_radius);
+    s.straighten_step = w.straighten_step.value_or(s.support_radius);
+    s.branch_bonus_length = w.branch_bonus.value_or(2 * s.nozzle);
+    s.sampling_pitch = w.pitch.value_or(s.nozzle / 8);
+    s.straighten = !w.no_straighten;
+    s.branch_bonus = !w.no_branch_bonus;
+    set_rotation(w);
+    w.job.placement.up = w.up[0];
+    w.job.placement.bed_x = w.job.printer.bed_x;
+    w.job.placement.bed_y = w.job.printer.bed_y;
+    w.job.placement.bed_z = w.job.printer.bed_z;
+    w.job.model = w.model;
+    const auto path = [](const std::string& text) { return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text); };
+    w.job.gcode = path(w.gcode), w.job.report = path(w.report), w.job.svg = path(w.svg), w.job.mesh = path(w.mesh);
+}
+
+int run(Written& w) {
+    complete(w);
+    Progress progress(w.quiet);
+    w.job.progress = [&](int done, int total) { progress(done, total); };
+    w.job.stop = interrupted;
+    w.job.warn = [&](const std::string& text) {
+        if (!w.quiet) std::fprintf(stderr, "warning: %s\n", text.c_str());
+    };
+    const RunReport report = generate(w.job);
+    if (!w.quiet) std::fputs(summary(report, w.job).c_str(), stdout);
+    return report.verdict.proved ? 0 : 1;
+}
+
+}  // namespace
+
+std::function<int()> add_generate(CLI::App& app) {
+    const auto written = std::make_shared<Written>();
+    CLI::App* command = app.add_subcommand("generate", "Hollow a mesh, grow ribbed supports, prove every layer, write G-code");
+    command->add_option("model", written->model, "STL, OBJ, OFF, PLY or 3MF")->required();
+    command->add_option("-o,--output", written->gcode, "G-code to write")->type_name("FILE");
+    command->add_option("--report", written->report, "JSON report to write")->type_name("FILE");
+    command->add_option("--svg", written->svg, "folder for one picture a layer")->type_name("DIR");
+    command->add_option("--mesh", written->mesh, "supports as solids, .stl or .3mf")->type_name("FILE");
+    command->add_option("--threads", written->job.threads, "0: all processors")->check(CLI::Range(0, 1024));
+    command->add_flag("--quiet", written->quiet, "print errors only");
+    add_geometry(command, *written);
+    add_placement(command, *written);
+    add_printer(command, written->job.printer);
+    return [written] { return run(*written); };
+}
+
+}  // namespace ribvault::cli

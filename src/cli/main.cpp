@@ -1,0 +1,41 @@
+#include <iostream>
+#include <map>
+
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "ribvault/error.hpp"
+
+int main(int argc, char** argv) {
+    using namespace ribvault;
+    CLI::App app{"ribvault: hollow 3D prints with ribbed support vaults, proved layer by layer.\n"
+                 "Exit codes: 0 written and proved, 1 written but not proved, 2 wrong option, 3 input unreadable,\n"
+                 "4 input is not a solid, 5 does not fit the bed, 6 cannot write, 130 interrupted."};
+    app.set_version_flag("--version", std::string("ribvault ") + RIBVAULT_VERSION);
+    app.require_subcommand(1);
+    std::map<const CLI::App*, std::function<int()>> run;
+    {
+        const auto generate = cli::add_generate(app);
+        run[app.get_subcommand("generate")] = generate;
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& e) {
+        return app.exit(e);
+    } catch (const CLI::ParseError& e) {
+        app.exit(e);
+        return static_cast<int>(ErrorKind::usage);
+    } catch (const Error& e) {
+        std::cerr << "ribvault: " << e.what() << '\n';
+        return static_cast<int>(e.kind());
+    }
+    cli::catch_interrupts();
+    try {
+        return run.at(app.get_subcommands().front())();
+    } catch (const Error& e) {
+        std::cerr << "ribvault: " << e.what() << '\n';
+        return static_cast<int>(e.kind());
+    } catch (const std::bad_alloc&) {
+        std::cerr << "ribvault: out of memory; try a smaller model or --threads 1\n";
+        return static_cast<int>(ErrorKind::bad_geometry);
+    }
+}

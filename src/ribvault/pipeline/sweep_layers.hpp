@@ -1,0 +1,48 @@
+// The whole sweep as a bounded pipeline over the layers, from top to bottom.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ribvault/settings.hpp"
+#include "ribvault/slice/cavity.hpp"
+#include "ribvault/slice/slice_mesh.hpp"
+#include "ribvault/vault/support_forest.hpp"
+
+namespace ribvault {
+
+/// What one layer is made of.
+struct LayerMaterial {
+    int layer = 0;
+    std::shared_ptr<const Slice> slice;               ///< O_i
+    std::shared_ptr<const Cavity> cavity;             ///< C_i
+    std::shared_ptr<const std::vector<Segment>> tracks;  ///< S_i as segments; dots as segments of no length
+    std::vector<GapClosing> closings;
+};
+
+/// A layer with everything known about it that its neighbours decide.
+struct SweptLayer {
+    LayerMaterial material;
+    SupportForest forest;  ///< S_i, SupportEdge::first_layer set
+    Region unsupported;    ///< what of layer i + 1 the walls copied from above and the shell did not hold up
+    int blocked = 0;       ///< chains that could not be straightened without crossing a wall
+};
+
+/// Busy time of each stage in seconds, summed over threads.
+using StageTimes = std::map<std::string, double>;
+
+/// Slices, hollows and sweeps all layers. `finish(layer, below)` is called for every layer, concurrently, with the material
+/// of the layer below (nullptr under layer 0); what it returns is handed to `collect` in the order of the layers from top
+/// to bottom, one at a time. At most a window of layers is alive at any time, whatever their number. The result does not
+/// depend on `threads` (0: all).
+///
+/// Throws what its parts throw, and Error (interrupted) soon after `stop()` returned true.
+StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, int threads,
+                        const std::function<std::shared_ptr<void>(const SweptLayer&, const LayerMaterial* below)>& finish,
+                        const std::function<void(const SweptLayer&, std::shared_ptr<void>)>& collect,
+                        const std::function<bool()>& stop);
+
+}  // namespace ribvault
