@@ -26,8 +26,8 @@ inline SupportForest random_forest(std::mt19937_64& random, int trees, int edges
         while (!taken.insert(root).second) ++root.x;
         vertices.push_back({root, true});
         for (int e = 0; e < edges; ++e) {
-            const auto from = static_cast<std::size_t>(
-                uniform(static_cast<Unit>(first), static_cast<Unit>(vertices.size()) - 1));
+            const auto from =
+                static_cast<std::size_t>(uniform(static_cast<Unit>(first), static_cast<Unit>(vertices.size()) - 1));
             const Unit reach = uniform(shortest, longest);
             const double angle = std::uniform_real_distribution<double>(0, 6.283185307179586)(random);
             const Point at = vertices[from].at + Point{round_to_lattice(static_cast<double>(reach) * std::cos(angle)),

@@ -26,7 +26,8 @@ Contour star(std::mt19937_64& random, Point centre, int corners, double lo, doub
     Contour c;
     for (int i = 0; i < corners; ++i) {
         const double angle = 2 * std::numbers::pi * i / corners, r = radius(random) * mm;
-        c.push_back({centre.x + round_to_lattice(r * std::cos(angle)), centre.y + round_to_lattice(r * std::sin(angle))});
+        c.push_back(
+            {centre.x + round_to_lattice(r * std::cos(angle)), centre.y + round_to_lattice(r * std::sin(angle))});
     }
     if (hole) std::reverse(c.begin(), c.end());
     return c;

@@ -88,7 +88,8 @@ void check_paths(const SupportForest& forest, const LayerPaths& layer, bool long
             if (k + 1 < path.points.size()) ++passed[v];
             if (k > 1) REQUIRE(forest[parent].at == path.points[k - 1]);
             if (k + 1 < path.points.size()) {
-                const double onwards = length(path.points[k + 1] - path.points[k]) + rooted.reach[rooted.at.at(path.points[k + 1])];
+                const double onwards =
+                    length(path.points[k + 1] - path.points[k]) + rooted.reach[rooted.at.at(path.points[k + 1])];
                 CHECK(onwards == Approx(rooted.reach[v]).epsilon(1e-12));
             }
         }
@@ -154,7 +155,8 @@ TEST_CASE("same forest, same paths; what the layer holds already only moves the 
     const LayerPaths once = support_paths(forest), again = support_paths(forest);
     CHECK(points_of(once) == points_of(again));
     LayerPaths far;
-    far.paths.push_back({TrackKind::outer_perimeter, 40000, true, {{20 * mm, 20 * mm}, {19 * mm, 20 * mm}, {20 * mm, 19 * mm}}});
+    far.paths.push_back(
+        {TrackKind::outer_perimeter, 40000, true, {{20 * mm, 20 * mm}, {19 * mm, 20 * mm}, {20 * mm, 19 * mm}}});
     append_support_paths(forest, Settings{}, far);
     std::vector<std::vector<Point>> moved = points_of(far), before = points_of(once);
     CHECK(std::vector(moved.begin() + 1, moved.end()) != before);
@@ -168,21 +170,21 @@ TEST_CASE("same forest, same paths; what the layer holds already only moves the 
 TEST_CASE("a branch stops one track width short of the trunk, on its first layer it reaches the junction") {
     const std::vector<Point> vertices{{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 3 * mm}};
     const LayerPaths later = support_paths(forest_of(vertices, {{0, 1}, {1, 2}, {1, 3}}));
-    CHECK(points_of(later) == std::vector<std::vector<Point>>{{{0, 0}, {5 * mm, 0}, {10 * mm, 0}},
-                                                              {{5 * mm, 40000}, {5 * mm, 3 * mm}}});
+    CHECK(points_of(later) ==
+          std::vector<std::vector<Point>>{{{0, 0}, {5 * mm, 0}, {10 * mm, 0}}, {{5 * mm, 40000}, {5 * mm, 3 * mm}}});
     CHECK(later.gaps == 1);
     CHECK(later.gap_length == 40000);
     const LayerPaths first = support_paths(forest_of(vertices, {{0, 1}, {1, 2}, {1, 3, true}}));
-    CHECK(points_of(first) == std::vector<std::vector<Point>>{{{0, 0}, {5 * mm, 0}, {10 * mm, 0}},
-                                                              {{5 * mm, 0}, {5 * mm, 3 * mm}}});
+    CHECK(points_of(first) ==
+          std::vector<std::vector<Point>>{{{0, 0}, {5 * mm, 0}, {10 * mm, 0}}, {{5 * mm, 0}, {5 * mm, 3 * mm}}});
     CHECK(first.gaps == 0);
     CHECK(first.gap_length == 0);
 }
 
 TEST_CASE("a branch of exactly one width vanishes, a longer one or one on its first layer does not") {
     const auto with_branch = [](Unit reach, bool first_layer) {
-        return support_paths(forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, reach}},
-                                       {{0, 1}, {1, 2}, {1, 3, first_layer}}));
+        return support_paths(
+            forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, reach}}, {{0, 1}, {1, 2}, {1, 3, first_layer}}));
     };
     CHECK(with_branch(40000, false).paths.size() == 1);
     CHECK(with_branch(40000, false).gap_length == 40000);
@@ -195,16 +197,16 @@ TEST_CASE("a branch of exactly one width vanishes, a longer one or one on its fi
 }
 
 TEST_CASE("the gap is measured along a bent branch") {
-    const LayerPaths layer = support_paths(
-        forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 30000}, {6 * mm, 30000}}, {{0, 1}, {1, 2}, {1, 3}, {3, 4}}));
+    const LayerPaths layer = support_paths(forest_of(
+        {{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 30000}, {6 * mm, 30000}}, {{0, 1}, {1, 2}, {1, 3}, {3, 4}}));
     REQUIRE(layer.paths.size() == 2);
     CHECK(layer.paths[1].points == std::vector<Point>{{5 * mm + 10000, 30000}, {6 * mm, 30000}});
 }
 
 TEST_CASE("a branch from a junction inside a gap starts one width from the nearest printed centre line") {
-    const LayerPaths layer = support_paths(
-        forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 15000}, {5 * mm, 4 * mm}, {6 * mm, 15000}},
-                  {{0, 1}, {1, 2}, {1, 3}, {3, 4}, {3, 5}}));
+    const LayerPaths layer =
+        support_paths(forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 15000}, {5 * mm, 4 * mm}, {6 * mm, 15000}},
+                                {{0, 1}, {1, 2}, {1, 3}, {3, 4}, {3, 5}}));
     REQUIRE(layer.paths.size() == 3);
     CHECK(layer.paths[1].points.front() == Point{5 * mm, 40000});
     CHECK(layer.paths[2].points.front() == Point{5 * mm + 25000, 15000});
@@ -247,10 +249,17 @@ TEST_CASE("trees follow each other by nearest root") {
     CHECK(layer.paths[2].points.front().x == 9 * mm);
 }
 
-TEST_CASE("no edges, no paths; an edge of no length is no path and no gap") {
+TEST_CASE("an isolated root is a dot, taken in its turn") {
+    SupportForest forest = forest_of({{9 * mm, 0}, {5 * mm, 0}, {6 * mm, 0}}, {{1, 2}});
+    forest[1].root = true;
+    CHECK(points_of(support_paths(forest)) ==
+          std::vector<std::vector<Point>>{{{5 * mm, 0}, {6 * mm, 0}}, {{9 * mm, 0}}});
+}
+
+TEST_CASE("an empty forest has no paths; an edge of no length is no path and no gap") {
     CHECK(support_paths(SupportForest{}).paths.empty());
-    CHECK(support_paths(forest_of({{0, 0}, {mm, 0}}, {})).paths.empty());
-    const LayerPaths layer = support_paths(forest_of({{0, 0}, {mm, 0}, {mm, 0}, {2 * mm, 0}}, {{0, 1}, {1, 2}, {1, 3}}));
+    const LayerPaths layer =
+        support_paths(forest_of({{0, 0}, {mm, 0}, {mm, 0}, {2 * mm, 0}}, {{0, 1}, {1, 2}, {1, 3}}));
     CHECK(layer.paths.size() == 1);
     CHECK(layer.gaps == 0);
 }
@@ -267,4 +276,7 @@ TEST_CASE("a cycle, a doubled edge and a tree without root are refused with laye
     SupportForest rootless = forest_of({{0, mm}, {mm, 0}}, {{0, 1}});
     rootless[0].root = false;
     refused(rootless, "no root");
+    SupportForest isolated(1);
+    isolated[0].at = {mm, mm};
+    refused(isolated, "no root");
 }

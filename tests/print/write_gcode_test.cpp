@@ -51,7 +51,7 @@ Parsed parse(const std::string& text) {
     std::string line, type;
     Unit width = 0;
     Point at{};
-    bool in_track = false;
+    bool in_track = false, retracted = true;
     double primed = 0;
     while (std::getline(lines, line)) {
         const auto after = [&](const char* key) { return line.substr(std::string(key).size()); };
@@ -83,7 +83,11 @@ Parsed parse(const std::string& text) {
         } else if (x && y) {
             REQUIRE(command == "G0");
             at = {*x, *y}, in_track = false, ++result.travels;
+        } else if (e && *e > 0 && !retracted) {
+            result.tracks.push_back({type, width, {at}, to_mm(*e), result.last_feed_rate, primed});
+            primed = 0, in_track = false;
         } else if (e) {
+            retracted = *e < 0;
             result.pushes.push_back(to_mm(*e)), primed += to_mm(*e), in_track = false;
         }
     }
@@ -112,13 +116,15 @@ std::vector<Point> points_travelled(const ToolPath& path) {
 TEST_CASE("what is written reads back as the same paths on the lattice, and E is volume over filament area") {
     std::mt19937_64 random(5);
     for (int round = 0; round < 20; ++round) {
-        LayerPaths layer = layer_of({path_of(TrackKind::outer_perimeter, {{-1, -20 * mm}, {20 * mm, 5}, {-123456, 99999}}, true),
-                                     path_of(TrackKind::inner_perimeter, {{7, 70}, {700, 7000}, {70001, 10}}, true),
-                                     path_of(TrackKind::cover, {{-5 * mm, 0}, {5 * mm + 10, 10 * mm + 10}})},
-                                    round);
+        LayerPaths layer =
+            layer_of({path_of(TrackKind::outer_perimeter, {{-1, -20 * mm}, {20 * mm, 5}, {-123456, 99999}}, true),
+                      path_of(TrackKind::inner_perimeter, {{7, 70}, {700, 7000}, {70001, 10}}, true),
+                      path_of(TrackKind::cover, {{-5 * mm, 0}, {5 * mm + 10, 10 * mm + 10}})},
+                     round);
         const Settings settings;
         const PrinterSettings printer;
         append_support_paths(random_forest(random, 5, 30, 1, 3 * mm, 0.1), settings, layer);
+        layer.paths.insert(layer.paths.begin() + 10, path_of(TrackKind::support, {{-7 * mm, 12345}}));
         const LayerText written = gcode_layer(layer, settings, printer);
         const Parsed read = parse(written.text);
         REQUIRE(read.tracks.size() == layer.paths.size());
@@ -128,7 +134,8 @@ TEST_CASE("what is written reads back as the same paths on the lattice, and E is
             const ToolPath& path = layer.paths[i];
             CHECK(read.tracks[i].points == points_travelled(path));
             CHECK(read.tracks[i].width == path.width);
-            const double mm_of_track = length(path) / mm;
+            // A dot of width w is a disc; as much material as a track of length π w / 4.
+            const double mm_of_track = path.points.size() == 1 ? std::numbers::pi * 0.1 : length(path) / mm;
             CHECK(std::abs(read.tracks[i].filament - mm_of_track * filament_per_mm) < 1.1e-5);
             total += read.tracks[i].filament;
             expected += mm_of_track * filament_per_mm;
@@ -150,7 +157,8 @@ TEST_CASE("types, widths, heights and statistics by kind") {
     std::vector<ToolPath> paths{path_of(TrackKind::outer_perimeter, {{0, 0}, {3 * mm, 0}, {3 * mm, 4 * mm}}, true),
                                 line(TrackKind::inner_perimeter, mm), line(TrackKind::cover, 2 * mm),
                                 line(TrackKind::support, 3 * mm)};
-    const LayerText first = gcode_layer(layer_of(paths, 0), settings, {}), sixth = gcode_layer(layer_of(paths, 5), settings, {});
+    const LayerText first = gcode_layer(layer_of(paths, 0), settings, {}),
+                    sixth = gcode_layer(layer_of(paths, 5), settings, {});
     const Parsed read = parse(sixth.text), bottom = parse(first.text);
     REQUIRE(read.tracks.size() == 4);
     CHECK(read.tracks[0].type == "External perimeter");
@@ -187,7 +195,8 @@ TEST_CASE("speeds: supports, the rest, the first layer") {
 
 TEST_CASE("a layer begins and ends retracted; only long travels retract between") {
     const auto two = [](Unit apart) {
-        return layer_of({path_of(TrackKind::cover, {{0, 0}, {mm, 0}}), path_of(TrackKind::cover, {{mm + apart, 0}, {9 * mm, 0}})});
+        return layer_of(
+            {path_of(TrackKind::cover, {{0, 0}, {mm, 0}}), path_of(TrackKind::cover, {{mm + apart, 0}, {9 * mm, 0}})});
     };
     const LayerText near = gcode_layer(two(150000), {}, {}), far = gcode_layer(two(150001), {}, {});
     CHECK(parse(near.text).pushes == std::vector<double>{3, -3});
@@ -201,10 +210,12 @@ TEST_CASE("a layer begins and ends retracted; only long travels retract between"
 }
 
 TEST_CASE("prime surplus before supports, but not near perimeters and not without a retraction") {
-    const ToolPath perimeter = path_of(TrackKind::outer_perimeter, {{0, 0}, {20 * mm, 0}, {20 * mm, 20 * mm}, {0, 20 * mm}}, true);
+    const ToolPath perimeter =
+        path_of(TrackKind::outer_perimeter, {{0, 0}, {20 * mm, 0}, {20 * mm, 20 * mm}, {0, 20 * mm}}, true);
     const auto pushes = [&](std::vector<Point> support, Point then) {
         return gcode_layer(layer_of({perimeter, path_of(TrackKind::support, support),
-                                     path_of(TrackKind::support, {then, then + Point{mm, mm}})}), {}, {});
+                                     path_of(TrackKind::support, {then, then + Point{mm, mm}})}),
+                           {}, {});
     };
     const LayerText far = pushes({{10 * mm, 10 * mm}, {12 * mm, 10 * mm}}, {12 * mm, 11 * mm});
     CHECK(parse(far.text).pushes == std::vector<double>{3, -3, 3.15, -3});
@@ -233,7 +244,8 @@ TEST_CASE("whether a surplus is due agrees with the plain distance to all perime
     int with = 0, without = 0;
     for (std::size_t i = 1; i < layer.paths.size(); ++i) {
         double nearest = INFINITY;
-        for (const Segment& s : segments(layer.paths[0])) nearest = std::min(nearest, distance(layer.paths[i].points[0], s));
+        for (const Segment& s : segments(layer.paths[0]))
+            nearest = std::min(nearest, distance(layer.paths[i].points[0], s));
         if (length(layer.paths[i].points[0] - end_of(layer.paths[i - 1])) <= 150000) continue;
         CHECK(read.tracks[i].primed == Approx(nearest <= mm ? 0 : 0.15).margin(1e-9));
         ++(nearest <= mm ? without : with);
@@ -263,8 +275,8 @@ TEST_CASE("an empty layer moves to its height and nothing else") {
 TEST_CASE("the header heats, homes, sets relative extrusion and leaves the filament retracted") {
     PrinterSettings printer;
     const std::string header = gcode_header({}, printer, 100);
-    for (const char* part : {"; generated by ribvault\n", ";LAYER_COUNT:100\n", "M190 S60", "M109 S205", "G28", "G90", "M83",
-                             "; layer_height = 0.2\n"})
+    for (const char* part : {"; generated by ribvault\n", ";LAYER_COUNT:100\n", "M190 S60", "M109 S205", "G28", "G90",
+                             "M83", "; layer_height = 0.2\n"})
         CHECK(header.find(part) != std::string::npos);
     CHECK(parse(header).pushes == std::vector<double>{-3});
     printer.bed_temperature = 0;

@@ -37,7 +37,8 @@ PerimeterRows::PerimeterRows(const LayerPaths& layer, Unit clearance) : clearanc
     rows_.resize(static_cast<std::size_t>((box.hi.y - box.lo.y) / row_height_ + 1));
     for (const Segment& s : segments) {
         const auto [lo, hi] = std::minmax(s.a.y, s.b.y);
-        for (Unit row = (lo - clearance - bottom_) / row_height_; row <= (hi + clearance - bottom_) / row_height_; ++row)
+        const Unit last = (hi + clearance - bottom_) / row_height_;
+        for (Unit row = (lo - clearance - bottom_) / row_height_; row <= last; ++row)
             rows_[static_cast<std::size_t>(row)].push_back(s);
     }
 }

@@ -172,14 +172,17 @@ void append_support_paths(const SupportForest& forest, const Settings& settings,
     std::vector<ToolPath> paths;
     std::vector<std::size_t> tree_begin;
     for (Vertex v = 0; v < num_vertices(forest); ++v) {
-        if (f.seen[v] || !forest[v].root || out_degree(v, forest) == 0) continue;
+        if (f.seen[v] || !forest[v].root) continue;
         hang_from_root(f, v, layer.layer);
         const std::size_t begin = paths.size();
-        append_tree(f, v, layer, paths);
+        if (out_degree(v, forest) == 0)
+            paths.push_back({TrackKind::support, settings.nozzle, false, {f.at(v)}});
+        else
+            append_tree(f, v, layer, paths);
         if (paths.size() > begin) tree_begin.push_back(begin);
     }
     for (Vertex v = 0; v < num_vertices(forest); ++v)
-        if (!f.seen[v] && out_degree(v, forest) > 0) throw_not_a_forest(layer.layer, f.at(v), "has no root");
+        if (!f.seen[v]) throw_not_a_forest(layer.layer, f.at(v), "has no root");
 
     tree_begin.push_back(paths.size());
     std::vector<PathEnds> trees;

@@ -7,21 +7,22 @@ namespace ribvault {
 
 /// Appends the tracks of S_i to a layer and adds to its gaps (Section 4.4, "Printing support trees").
 ///
-/// Every tree is walked from its root with the smallest index; its other roots are vertices like any. At a junction the
-/// path goes on into the subtree that reaches farthest along its edges; ties prefer the straighter continuation, then the
-/// smaller vertex index. What it leaves aside is printed later, outwards from the junction, always after the path that
-/// runs through the junction, the junctions nearest the end of that path first. Trees follow each other by nearest root.
+/// Every tree is walked from its root with the smallest index; its other roots are vertices like any. At a junction
+/// the path goes on into the subtree that reaches farthest along its edges; ties prefer the straighter continuation,
+/// then the smaller vertex index. What it leaves aside is printed later, outwards from the junction, always after the
+/// path that runs through the junction, the junctions nearest the end of that path first. Trees follow each other by
+/// nearest root. A dot (isolated vertex) becomes a path of one point.
 ///
 /// Only the first path runs through a junction. A later branch starts one track width (`settings.nozzle`) short of it,
-/// measured along the branch, unless its first edge has first_layer set: then it starts at the junction. A branch that is
-/// no longer than its gap is not printed and counts as gap. A junction that lies inside such a gap is itself not printed;
-/// a branch from there starts where it is one width away, along the tree, from the nearest printed centre line, so that
-/// tracks touch without overlapping there too.
+/// measured along the branch, unless its first edge has first_layer set: then it starts at the junction. A branch that
+/// is no longer than its gap is not printed and counts as gap. A junction that lies inside such a gap is itself not
+/// printed; a branch from there starts where it is one width away, along the tree, from the nearest printed centre
+/// line, so that tracks touch without overlapping there too.
 ///
-/// Precondition: every component of the forest that has an edge is a tree with at least one root.
+/// Precondition: every component of the forest is a tree with at least one root.
 /// Postcondition: every point is a vertex of the forest or the end of a gap (rounded once to the lattice); consecutive
-/// points differ; the lengths of the new paths and gaps add up to the forest's length but for this rounding. The result
-/// depends on the forest, the settings and where the last path of `layer` ends, on nothing else.
+/// points differ; the lengths of the new paths and gaps add up to the forest's length but for this rounding. The
+/// result depends on the forest, the settings and where the last path of `layer` ends, on nothing else.
 /// Throws Error (bad_geometry) naming layer and coordinates when a component has a cycle or no root.
 void append_support_paths(const SupportForest& forest, const Settings& settings, LayerPaths& layer);
 

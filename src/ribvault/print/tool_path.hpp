@@ -10,7 +10,8 @@ namespace ribvault {
 
 enum class TrackKind { outer_perimeter, inner_perimeter, cover, support };
 
-/// One continuous extrusion: centre line on the lattice, material is within width / 2 of it.
+/// One continuous extrusion: centre line on the lattice, material is within width / 2 of it. A single point is a dot, a
+/// disc extruded in place.
 struct ToolPath {
     TrackKind kind = TrackKind::support;
     Unit width = 0;

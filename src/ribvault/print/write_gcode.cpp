@@ -105,6 +105,23 @@ struct LayerWriter {
         out.text += '\n';
         ++out.statistics.travels;
     }
+    /// The filament to push so that all since the layer's start is right to the last decimal.
+    std::int64_t next_push(double mm_of_filament) {
+        to_push += mm_of_filament;
+        const std::int64_t before = std::exchange(pushed, hundred_thousandths(to_push));
+        return pushed - before;
+    }
+    /// The flow is that of a track at this speed.
+    void dot(const ToolPath& path, double mm_per_s) {
+        const double area = std::numbers::pi / 4 * to_mm(path.width) * to_mm(path.width);
+        const double volume = area * to_mm(height);
+        out.text += "G1 E";
+        append_decimal(out.text, next_push(volume / filament_area(printer)));
+        feed(mm_per_s * to_mm(path.width) * to_mm(height) / filament_area(printer));
+        out.text += '\n';
+        out.statistics.volume[static_cast<std::size_t>(path.kind)] += volume;
+        out.statistics.filament += volume / filament_area(printer);
+    }
     void track(const ToolPath& path, double mm_per_s) {
         const double volume_per_mm = to_mm(path.width) * to_mm(height);
         const double filament_per_unit = to_mm(1) * volume_per_mm / filament_area(printer);
@@ -114,15 +131,12 @@ struct LayerWriter {
             const Point to = path.points[i % count];
             const double step = length(to - path.points[i - 1]);
             sum += step;
-            to_push += step * filament_per_unit;
-            const std::int64_t next = hundred_thousandths(to_push);
             out.text += "G1";
             position(to);
             out.text += " E";
-            append_decimal(out.text, next - pushed);
+            append_decimal(out.text, next_push(step * filament_per_unit));
             feed(mm_per_s);
             out.text += '\n';
-            pushed = next;
         }
         const auto kind = static_cast<std::size_t>(path.kind);
         const double mm = sum / static_cast<double>(units_per_mm);
@@ -232,9 +246,13 @@ LayerText gcode_layer(const LayerPaths& layer, const Settings& settings, const P
         if (!previous || previous->kind != path.kind) writer.comment(";TYPE:", type_name(path.kind));
         if (!previous || previous->width != path.width) writer.length_comment(";WIDTH:", path.width);
         const bool support = path.kind == TrackKind::support;
-        writer.track(path, layer.layer == 0 ? printer.first_layer_speed
-                           : support        ? printer.support_speed
-                                            : printer.print_speed);
+        const double speed = layer.layer == 0 ? printer.first_layer_speed
+                             : support        ? printer.support_speed
+                                              : printer.print_speed;
+        if (path.points.size() == 1)
+            writer.dot(path, speed);
+        else
+            writer.track(path, speed);
         previous = &path;
     }
     writer.retract();

@@ -14,11 +14,11 @@ inline constexpr std::size_t track_kinds = 4;  ///< how many values TrackKind ha
 /// What a piece of G-code extrudes and moves. Millimetres of track, mm³, millimetres of filament.
 struct PrintStatistics {
     std::array<double, track_kinds> length{};  ///< mm of track by TrackKind
-    std::array<double, track_kinds> volume{};  ///< mm³ by TrackKind: length times width times layer height
+    std::array<double, track_kinds> volume{};  ///< mm³ by TrackKind: length times width times layer height, and dots
     double filament = 0;                       ///< mm pushed along tracks; retractions and surplus not counted
     double prime_surplus = 0;                  ///< mm of filament pushed in addition before support paths (Section 5.1)
-    double travel = 0;  ///< mm without extrusion inside layers; the way to a layer's first track is not known and not in it
-    int travels = 0;    ///< the way to a layer's first track included
+    double travel = 0;                         ///< mm inside layers; the way to a layer's first track is not known
+    int travels = 0;                           ///< the way to a layer's first track included
     int retractions = 0;
     PrintStatistics& operator+=(const PrintStatistics& other);
 };
@@ -44,9 +44,10 @@ std::string gcode_header(const Settings& settings, const PrinterSettings& printe
 /// within `surplus_clearance` of a perimeter's centre line (Section 5.1).
 ///
 /// Coordinates are the lattice's, exactly. A track of width w extrudes w times layer height mm³ per mm, a rectangular
-/// cross-section as the paper counts material. E has five decimals; its rounding is carried on, so that its sum over the
-/// tracks of a layer is within 0.00001 mm of the volume over the filament's cross-section.
-/// Precondition: every path has at least two points, the printer settings are those a header was written for.
+/// cross-section as the paper counts material; a dot (path of one point) a disc of that width and height, in place. E
+/// has five decimals; its rounding is carried on, so that its sum over the tracks of a layer is within 0.00001 mm of
+/// the volume over the filament's cross-section.
+/// Precondition: every path has at least one point; a header was written for these printer settings.
 LayerText gcode_layer(const LayerPaths& layer, const Settings& settings, const PrinterSettings& printer);
 
 /// What comes after the last layer: heaters off, nozzle up, motors off.
