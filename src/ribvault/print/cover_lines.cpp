@@ -105,7 +105,7 @@ std::vector<std::size_t> pair_crossings(Fill& fill) {
     return pieces;
 }
 
-/// The contour's vertices between crossing a and the one that follows it, when the way over them is no longer than limit.
+/// The contour's vertices between crossing a and the next one along it, when the way over them is within the limit.
 std::optional<Contour> boundary_between(const Fill& fill, std::size_t a, double limit) {
     const Crossing &from = fill.crossings[a], &to = fill.crossings[from.next];
     const Contour& points = fill.contours[from.contour];
@@ -124,7 +124,7 @@ std::optional<Contour> boundary_between(const Fill& fill, std::size_t a, double 
     return way;
 }
 
-/// The end of an unused piece on a neighbouring line to which crossing `from` can be joined; `way` gets what is between.
+/// The end of an unused piece on a neighbouring line to which `from` can be joined; `way` gets what lies between.
 std::optional<std::size_t> link_from(const Fill& fill, std::size_t from, double limit, Contour& way) {
     const Crossing& here = fill.crossings[from];
     for (const bool upwards : {true, false})
