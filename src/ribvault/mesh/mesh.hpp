@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace ribvault {
 struct Mesh {
     Eigen::Matrix<double, 3, Eigen::Dynamic> vertices;
     Eigen::Matrix<int, 3, Eigen::Dynamic> triangles;  ///< counter-clockwise seen from outside
+    std::size_t degenerate_triangles = 0;             ///< dropped when read: two corners at the same point
 };
 
 /// Exact placement: bed coordinate k (mm) = scale * sign[k] * file coordinate axis[k] + offset[k].
