@@ -17,6 +17,7 @@ ErodedSupports erode_supports(const SupportForest& forest, Unit step) {
         list.push_back({a, b});
     }
     std::vector<Point> place(n);
+    std::vector<char> lost_branch(n, false);
     for (std::size_t v = 0; v < n; ++v) place[v] = forest[v].at;
 
     for (std::size_t tip = 0; step > 0 && tip < n; ++tip) {
@@ -37,7 +38,10 @@ ErodedSupports erode_supports(const SupportForest& forest, Unit step) {
             }
             list[edge].alive = false;
             left -= l;
-            if (forest[next].root || at[next].size() != 2) break;
+            if (forest[next].root || at[next].size() != 2) {
+                lost_branch[next] = true;
+                break;
+            }
             edge = at[next][0] == edge ? at[next][1] : at[next][0];
             v = next;
         }
@@ -47,8 +51,10 @@ ErodedSupports erode_supports(const SupportForest& forest, Unit step) {
     result.survives.resize(list.size());
     std::vector<std::int64_t> vertex(n, -1);
     const auto keep = [&](std::size_t v) {
-        if (vertex[v] < 0)
+        if (vertex[v] < 0) {
             vertex[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{place[v], forest[v].root}, result.forest));
+            result.pinned.push_back(lost_branch[v]);
+        }
         return static_cast<std::size_t>(vertex[v]);
     };
     for (std::size_t e = 0; e < list.size(); ++e) {

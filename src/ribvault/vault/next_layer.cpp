@@ -32,7 +32,7 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
             if (eroded.survives[e] && copied.origin[e] >= 0) continues[static_cast<std::size_t>(copied.origin[e])] = 1;
         SupportForest propagated = std::move(eroded.forest);
         if (settings.straighten) {
-            StraightenedSupports straightened = straighten_supports(propagated, boundary, settings.straighten_step);
+            StraightenedSupports straightened = straighten_supports(propagated, eroded.pinned, boundary, settings.straighten_step);
             result.blocked = straightened.blocked;
             propagated = straightened.left_cavity ? clip_again(straightened.forest, boundary) : std::move(straightened.forest);
         }

@@ -30,8 +30,8 @@ Point move_towards(Point from, double x, double y, Unit step) {
 
 class Straightener {
 public:
-    Straightener(const SupportForest& forest, const CavityBoundary& boundary, Unit step)
-        : forest_(forest), boundary_(boundary), step_(step), place_(num_vertices(forest)), at_(num_vertices(forest)),
+    Straightener(const SupportForest& forest, const std::vector<char>& pinned, const CavityBoundary& boundary, Unit step)
+        : forest_(forest), pinned_(pinned), boundary_(boundary), step_(step), place_(num_vertices(forest)), at_(num_vertices(forest)),
           grid_(bounds(forest), units_per_mm, 0) {
         for (std::size_t v = 0; v < place_.size(); ++v) place_[v] = forest[v].at;
         for (auto [e, end] = edges(forest); e != end; ++e) add_wall(source(*e, forest), target(*e, forest), false);
@@ -53,7 +53,7 @@ private:
         if (box.empty()) box.add({0, 0});
         return box;
     }
-    bool passes(std::size_t v) const { return out_degree(v, forest_) == 2 && !forest_[v].root; }
+    bool passes(std::size_t v) const { return out_degree(v, forest_) == 2 && !forest_[v].root && !pinned_[v]; }
     Segment segment(const Wall& w) const { return {place_[w.a], place_[w.b]}; }
 
     void add_wall(std::size_t a, std::size_t b, bool seen) {
@@ -175,6 +175,7 @@ private:
     }
 
     const SupportForest& forest_;
+    const std::vector<char>& pinned_;
     const CavityBoundary& boundary_;
     Unit step_;
     std::vector<Point> place_;
@@ -192,8 +193,9 @@ private:
 
 }  // namespace
 
-StraightenedSupports straighten_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step) {
-    return Straightener(forest, boundary, step).run();
+StraightenedSupports straighten_supports(const SupportForest& forest, const std::vector<char>& pinned,
+                                         const CavityBoundary& boundary, Unit step) {
+    return Straightener(forest, pinned, boundary, step).run();
 }
 
 }  // namespace ribvault

@@ -14,7 +14,9 @@ struct StraightenedSupports {
 
 /// Every maximal chain without branches keeps its ends; each vertex between them moves by at most `step` towards the point
 /// at the same fraction of the chain's length on the chord. A chain that arrives becomes one segment. So every point of the
-/// input lies within `step` of the output. The supports stay planar: a chain that would cross another wall stays.
-StraightenedSupports straighten_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step);
+/// input lies within `step` of the output. Vertices marked in `pinned` (where erosion has just taken a branch, which they
+/// alone hold up) count as ends. The supports stay planar: a chain that would cross another wall stays.
+StraightenedSupports straighten_supports(const SupportForest& forest, const std::vector<char>& pinned,
+                                         const CavityBoundary& boundary, Unit step);
 
 }  // namespace ribvault
