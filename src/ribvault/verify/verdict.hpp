@@ -8,7 +8,8 @@
 
 namespace ribvault {
 
-/// How often each stage of the verifier's predicates decided.
+/// How often each stage of the verifier's predicates decided. A decision is one candidate point, or one cell of the
+/// subdivision settled as a whole; it counts for the highest stage that it needed (docs/verifier.md).
 struct StageCounts {
     std::uint64_t interval = 0;  ///< machine arithmetic with certified bounds
     std::uint64_t rational = 0;  ///< exact rational arithmetic
@@ -31,6 +32,7 @@ struct Unsupported {
 struct LayerVerdict {
     int layer = 0;                           ///< the upper layer, i
     bool supported = false;                  ///< proved: BS_i minus external overhangs lies within ρ of BS_{i-1}
+    std::string malformed;                   ///< why equation (2) has no meaning here (a cavity not inside its slice); else empty
     std::optional<Unsupported> internal;     ///< refuted: what internal supports should have held up
     std::optional<Unsupported> external;     ///< farther than ρ from O_{i-1}: outside what internal supports can reach
     StageCounts stages;

@@ -1,0 +1,160 @@
+// M \ K = {}? Depth first over cells; in the cells that no single statement settles, the candidate points decide.
+#include <algorithm>
+#include <cmath>
+
+#include "ribvault/verify/cell.hpp"
+
+namespace ribvault::verify {
+
+namespace {
+
+void count(StageCounts& stages, Stage stage) {
+    ++(stage == Stage::interval ? stages.interval : stage == Stage::rational ? stages.rational : stages.algebraic);
+}
+
+struct Leaf {
+    const Subdivision& s;
+    const Cell& cell;
+    StageCounts& stages;
+    double reach;
+    Surroundings near;
+
+    Leaf(const Subdivision& subdivision, const Cell& c, StageCounts& counts)
+        : s(subdivision), cell(c), stages(counts), reach(c.half * 1.4142135623730952 + 8 * s.margin) {
+        near.sites = view(cell.sites);
+        near.edges = view(cell.edges);
+        near.pieces = view(cell.pieces);
+        near.x = cell.ref_x, near.y = cell.ref_y;
+        near.winding = cell.material_winding;
+    }
+
+    bool circle_meets(int centre, double radius) const {
+        const Vertex& v = s.problem->vertices[centre];
+        const double dx = cell.x - v.cx, dy = cell.y - v.cy;
+        return std::abs(std::sqrt(dx * dx + dy * dy) - radius) <= reach;
+    }
+
+    // The two curves of a stadium parallel to its segment, the circles about its ends: those that meet the cell.
+    void add_curves(const Stadium& stadium, bool from_material, boost::container::small_vector<Curve, 24>& curves) const {
+        const auto add_circle = [&](int centre) {
+            if (!circle_meets(centre, stadium.radius)) return;
+            for (const Curve& c : curves)
+                if (!c.line && c.a == centre && c.radius == stadium.radius && c.from_material == from_material) return;
+            curves.push_back({false, centre, centre, 0, stadium.radius, from_material});
+        };
+        add_circle(stadium.a);
+        if (stadium.b == stadium.a) return;
+        add_circle(stadium.b);
+        const Vertex &p = s.problem->vertices[stadium.a], &q = s.problem->vertices[stadium.b];
+        const double dx = q.cx - p.cx, dy = q.cy - p.cy, length = std::sqrt(dx * dx + dy * dy);
+        const double vx = cell.x - p.cx, vy = cell.y - p.cy;
+        // The ends' error of 2^-50 c turns the line by 2^-50 c / length; too short a segment for this distance: keep its lines.
+        const bool tiny = 512 * length <= std::abs(vx) + std::abs(vy);
+        const double along = tiny ? 0 : (vx * dx + vy * dy) / length;
+        const double above = tiny ? 0 : (dx * vy - dy * vx) / length;
+        if (!tiny && (along < -reach || along > length + reach)) return;
+        for (const int side : {-1, 1})
+            if (tiny || std::abs(above - side * stadium.radius) <= reach)
+                curves.push_back({true, stadium.a, stadium.b, side, stadium.radius, from_material});
+    }
+
+    // Whether the candidate refutes M inside K.
+    bool refutes(const Candidate& candidate, Stage already, Uncovered& found) {
+        Located v = located(*s.problem, candidate, s.margin);
+        const double m = 4 * s.margin;
+        if (v.x.sup() < cell.x - cell.half - m || v.x.inf() > cell.x + cell.half + m ||
+            v.y.sup() < cell.y - cell.half - m || v.y.inf() > cell.y + cell.half + m)
+            return false;
+        Vec<double> hint{1, 0};
+        const Local local = decide_locally(v, near, hint);
+        count(stages, std::max(v.stage, already));
+        if (local != Local::uncovered) return false;
+        found = {(v.x.inf() + v.x.sup()) / 2, (v.y.inf() + v.y.sup()) / 2, hint};
+        return true;
+    }
+
+    bool refutes_meeting(const Curve& c1, const Curve& c2, Uncovered& found) {
+        // A line of K touches the circle about its own end smoothly: no corner of the uncovered set.
+        if (!c1.from_material && !c2.from_material && c1.radius == c2.radius && c1.line != c2.line) {
+            const Curve &line = c1.line ? c1 : c2, &circle = c1.line ? c2 : c1;
+            if (circle.a == line.a || circle.a == line.b) return false;
+        }
+        Stage stage = Stage::interval;
+        const int n = meeting_points(*s.problem, c1, c2, stage);
+        if (n == 0) return false;
+        Candidate candidate{Candidate::Kind::meeting, -1, 0, c1, c2, 0};
+        if (n == 1) return refutes(candidate, stage, found);
+        for (const int r : {-1, 1}) {
+            candidate.root = r;
+            if (refutes(candidate, stage, found)) return true;
+        }
+        return false;
+    }
+
+    bool refute(Uncovered& found) {
+        const CoverProblem& problem = *s.problem;
+        const auto near_cell = [&](double x, double y) {
+            return std::abs(x - cell.x) <= cell.half + 8 * s.margin && std::abs(y - cell.y) <= cell.half + 8 * s.margin;
+        };
+        for (const int e : cell.edges) {
+            const int a = problem.material[e].a;
+            const Vertex& v = problem.vertices[a];
+            if (near_cell(v.cx, v.cy) && refutes({Candidate::Kind::vertex, a, 0, {}, {}, 0}, Stage::interval, found))
+                return true;
+        }
+        for (const int p : cell.pieces) {
+            const Stadium& piece = problem.pieces[p];
+            const int a = problem.vertices[piece.b].cx < problem.vertices[piece.a].cx ? piece.b : piece.a;
+            const Vertex& v = problem.vertices[a];
+            if (near_cell(v.cx - piece.radius, v.cy) &&
+                refutes({Candidate::Kind::leftmost, a, piece.radius, {}, {}, 0}, Stage::interval, found))
+                return true;
+        }
+        boost::container::small_vector<Curve, 24> below, above;
+        for (const int i : cell.sites) add_curves(problem.sites[i], false, below);
+        for (const int i : cell.pieces) add_curves(problem.pieces[i], true, above);
+        for (const int e : cell.edges) above.push_back({true, problem.material[e].a, problem.material[e].b, 0, 0, true});
+        for (std::size_t i = 0; i < below.size(); ++i) {
+            for (const Curve& c : above)
+                if (refutes_meeting(below[i], c, found)) return true;
+            for (std::size_t j = 0; j < i; ++j)
+                if (refutes_meeting(below[i], below[j], found)) return true;
+        }
+        return false;
+    }
+};
+
+}  // namespace
+
+std::optional<Uncovered> find_uncovered(const CoverProblem& problem, const Window& window, StageCounts& stages) {
+    if (window.lo_x > window.hi_x || window.lo_y > window.hi_y) return std::nullopt;
+    const Subdivision s = subdivision(problem);
+    double smallest = 0;
+    for (const Stadium& site : problem.sites)
+        smallest = smallest == 0 ? site.radius : std::min(smallest, site.radius);
+    std::vector<Cell> open{root_cell(s, window)};
+    while (!open.empty()) {
+        const Cell cell = std::move(open.back());
+        open.pop_back();
+        const CellState state = state_of(s, cell);
+        if (state == CellState::settled) {
+            ++stages.interval;
+            continue;
+        }
+        if (state == CellState::uncovered) {
+            ++stages.interval;
+            return Uncovered{cell.x, cell.y, {1, 0}};
+        }
+        // A cell smaller than this that meets the boundary of K's region lies in the stadium there, so it is settled.
+        const bool few = cell.sites.size() <= 3 && cell.edges.size() <= 4 && cell.pieces.size() <= 2;
+        if (cell.region.empty() && (few || cell.half < smallest / 16)) {
+            Uncovered found;
+            if (Leaf(s, cell, stages).refute(found)) return found;
+            continue;
+        }
+        for (int i = 0; i < 4; ++i) open.push_back(quarter(s, cell, i));
+    }
+    return std::nullopt;
+}
+
+}  // namespace ribvault::verify

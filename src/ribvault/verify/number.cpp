@@ -1,0 +1,54 @@
+#include "ribvault/verify/number.hpp"
+
+#include <CGAL/FPU.h>
+
+namespace ribvault::verify {
+
+Vertex lattice_vertex(Point p) {
+    Vertex v;
+    v.cx = static_cast<double>(p.x), v.cy = static_cast<double>(p.y);
+    v.x = Interval(v.cx), v.y = Interval(v.cy);  // |p| <= lattice_bound < 2^53: exact
+    v.lattice = p;
+    return v;
+}
+
+Vertex slice_vertex(const ExactKernel::Point_2& p) {
+    const auto scaled = [](const ExactKernel::FT& a) {
+        const std::pair<double, double> mm = CGAL::to_interval(a);
+        return Interval(mm.first, mm.second) * Interval(static_cast<double>(units_per_mm));
+    };
+    Vertex v;
+    v.x = scaled(p.x()), v.y = scaled(p.y());
+    v.cx = (v.x.inf() + v.x.sup()) / 2, v.cy = (v.y.inf() + v.y.sup()) / 2;
+    v.slice = &p;
+    return v;
+}
+
+template <>
+Vec<Rational> exact_point<Rational>(const Vertex& v) {
+    if (!v.slice) return {Rational(static_cast<long>(v.lattice.x)), Rational(static_cast<long>(v.lattice.y))};
+    const Rational scale(static_cast<long>(units_per_mm));
+    return {Rational(CGAL::exact(v.slice->x()) * scale), Rational(CGAL::exact(v.slice->y()) * scale)};
+}
+
+template <>
+Vec<Algebraic> exact_point<Algebraic>(const Vertex& v) {
+    const Vec<Rational> q = exact_point<Rational>(v);
+    return {to_algebraic(q.x), to_algebraic(q.y)};
+}
+
+Interval root(const Interval& a) {
+    return CGAL::sqrt(a.inf() < 0 ? Interval(0, a.sup() < 0 ? 0 : a.sup()) : a);
+}
+
+Rational root(const Rational& a) {
+    if (mpz_perfect_square_p(a.get_num_mpz_t()) == 0 || mpz_perfect_square_p(a.get_den_mpz_t()) == 0)
+        throw NotRational{};
+    return Rational(sqrt(a.get_num()), sqrt(a.get_den()));
+}
+
+Algebraic root(const Algebraic& a) { return CGAL::sqrt(a); }
+
+Algebraic to_algebraic(const Rational& a) { return Algebraic(CORE::BigRat(a.get_mpq_t())); }
+
+}  // namespace ribvault::verify

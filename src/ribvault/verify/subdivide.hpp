@@ -1,0 +1,35 @@
+// The search for uncovered points: cells that are settled as a whole, and candidate points in the few that are not.
+#pragma once
+
+#include <optional>
+
+#include "ribvault/verify/local_cover.hpp"
+#include "ribvault/verify/verdict.hpp"
+
+namespace ribvault::verify {
+
+/// An axis-parallel box in lattice units; M \ K is looked for inside it.
+struct Window {
+    double lo_x = 0, lo_y = 0, hi_x = 0, hi_y = 0;
+};
+
+/// A point of the closure of M \ K, and a direction in which to look for a point of M \ K itself. Lattice units.
+struct Uncovered {
+    double x = 0, y = 0;
+    Vec<double> hint{1, 0};
+};
+
+/// Decides M \ K = {} exactly (docs/verifier.md). Nothing when it is empty. Precondition: M \ K lies inside `window`.
+/// Under upward rounding; adds to `stages`.
+std::optional<Uncovered> find_uncovered(const CoverProblem& problem, const Window& window, StageCounts& stages);
+
+/// Certified enclosure of the area of M \ K, to about 1 % or as far as `max_cells` cells go, and the largest cell found
+/// that lies in M \ K as a whole.
+struct AreaEnclosure {
+    double lo = 0, hi = 0;  ///< square lattice units
+    double x = 0, y = 0;    ///< centre of the largest uncovered cell
+    double half = 0;        ///< half its side; 0 when no cell is uncovered as a whole
+};
+AreaEnclosure enclose_area(const CoverProblem& problem, const Window& window, int max_cells);
+
+}  // namespace ribvault::verify

@@ -1,0 +1,144 @@
+#include "ribvault/verify/verify_layer.hpp"
+
+#include <CGAL/FPU.h>
+
+#include <algorithm>
+
+#include "ribvault/error.hpp"
+#include "ribvault/verify/cavity_check.hpp"
+#include "ribvault/verify/track_cover.hpp"
+#include "ribvault/verify/witness.hpp"
+
+namespace ribvault {
+
+using namespace verify;
+
+namespace {
+
+/// The sets of one layer over common vertices.
+struct LayerEdges {
+    std::vector<Edge> outline;  ///< O on the left
+    std::vector<Edge> cavity;   ///< C on the left
+    std::vector<Edge> tracks;   ///< without repetitions
+};
+
+void add_polygon(const ExactPolygon& polygon, std::vector<Vertex>& vertices, std::vector<Edge>& edges) {
+    const int first = static_cast<int>(vertices.size()), n = static_cast<int>(polygon.size());
+    for (auto v = polygon.vertices_begin(); v != polygon.vertices_end(); ++v) vertices.push_back(slice_vertex(*v));
+    for (int i = 0; i < n; ++i) edges.push_back({first + i, first + (i + 1) % n});
+}
+
+// Lattice segments with equal points as one vertex.
+std::vector<Edge> add_segments(const std::vector<Segment>& segments, std::vector<Vertex>& vertices) {
+    std::vector<Point> points;
+    for (const Segment& s : segments) points.push_back(s.a), points.push_back(s.b);
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    const int first = static_cast<int>(vertices.size());
+    for (const Point p : points) vertices.push_back(lattice_vertex(p));
+    const auto index = [&](Point p) {
+        return first + static_cast<int>(std::lower_bound(points.begin(), points.end(), p) - points.begin());
+    };
+    std::vector<Edge> edges;
+    for (const Segment& s : segments) edges.push_back({index(s.a), index(s.b)});
+    return edges;
+}
+
+LayerEdges add_layer(const LayerGeometry& layer, std::vector<Vertex>& vertices, std::string& malformed) {
+    LayerEdges edges;
+    for (const ExactPolygonWithHoles& polygon : layer.outline->polygons) {
+        add_polygon(polygon.outer_boundary(), vertices, edges.outline);
+        for (const ExactPolygon& hole : polygon.holes()) add_polygon(hole, vertices, edges.outline);
+    }
+    const CavityBoundary cavity = cavity_boundary(*layer.cavity);
+    malformed = cavity.malformed;
+    edges.cavity = add_segments(cavity.edges, vertices);
+    edges.tracks = add_segments(layer.tracks, vertices);
+    for (Edge& e : edges.tracks)
+        if (e.b < e.a) std::swap(e.a, e.b);
+    const auto order = [](const Edge& e, const Edge& f) { return e.a != f.a ? e.a < f.a : e.b < f.b; };
+    const auto same = [](const Edge& e, const Edge& f) { return e.a == f.a && e.b == f.b; };
+    std::sort(edges.tracks.begin(), edges.tracks.end(), order);
+    edges.tracks.erase(std::unique(edges.tracks.begin(), edges.tracks.end(), same), edges.tracks.end());
+    if (malformed.empty()) malformed = check_inside(vertices, edges.cavity, edges.outline);
+    return edges;
+}
+
+void grow_window(Window& w, const CoverProblem& problem, int vertex, double by) {
+    const Vertex& v = problem.vertices[vertex];
+    w.lo_x = std::min(w.lo_x, v.x.inf() - by), w.hi_x = std::max(w.hi_x, v.x.sup() + by);
+    w.lo_y = std::min(w.lo_y, v.y.inf() - by), w.hi_y = std::max(w.hi_y, v.y.sup() + by);
+}
+
+constexpr Window empty_window{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+Window window_of_m(const CoverProblem& problem) {
+    Window w = empty_window;
+    for (const Edge& e : problem.material) grow_window(w, problem, e.a, 1);
+    for (const Stadium& piece : problem.pieces)
+        for (const int end : {piece.a, piece.b}) grow_window(w, problem, end, piece.radius + 1);
+    return w;
+}
+
+std::optional<Unsupported> decide(const CoverProblem& problem, const Window& window, double rho, StageCounts& stages) {
+    const std::optional<Uncovered> found = find_uncovered(problem, window, stages);
+    if (!found) return std::nullopt;
+    return describe_uncovered(problem, window, *found, rho);
+}
+
+}  // namespace
+
+LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const LayerGeometry& lower,
+                          const Settings& settings) {
+    if (settings.support_radius <= 0 || settings.nozzle <= 0 || settings.nozzle % 2 != 0)
+        throw Error(ErrorKind::usage, "the verifier needs a positive support radius and a nozzle diameter of an even "
+                                      "number of lattice units; run Settings::check first");
+    if (!upper.outline || !upper.cavity || !lower.outline || !lower.cavity)
+        throw Error(ErrorKind::usage, "the verifier needs the outline and the cavity of both layers (layer " +
+                                          std::to_string(upper_layer) + "); pass an empty cavity where there is none");
+    const CGAL::Protect_FPU_rounding<true> upward;
+    const double rho = static_cast<double>(settings.support_radius), r = static_cast<double>(settings.nozzle / 2);
+    LayerVerdict verdict;
+    verdict.layer = upper_layer;
+    std::vector<Vertex> vertices;
+    std::string malformed_above, malformed_below;
+    const LayerEdges above = add_layer(upper, vertices, malformed_above);
+    const LayerEdges below = add_layer(lower, vertices, malformed_below);
+    if (!malformed_above.empty() || !malformed_below.empty()) {
+        verdict.malformed = "layer " + std::to_string(malformed_above.empty() ? upper_layer - 1 : upper_layer) + ": " +
+                            (malformed_above.empty() ? malformed_below : malformed_above);
+        return verdict;
+    }
+
+    // External: M = BS_{i+1}, K = (O_i)^{ρ↑}.
+    CoverProblem external;
+    external.vertices = vertices;
+    external.material = above.outline;
+    for (const Edge& e : above.cavity) external.material.push_back({e.b, e.a});
+    for (const Edge& t : above.tracks) external.pieces.push_back({t.a, t.b, r});
+    external.region = below.outline;
+    for (const Edge& e : below.outline) external.sites.push_back({e.a, e.b, rho});
+    verdict.external = decide(external, window_of_m(external), rho, verdict.stages);
+
+    // Internal: K = the points within ρ of the outside of C_i, and within r + ρ of a centre line of S_i.
+    if (!below.cavity.empty()) {
+        CoverProblem internal;
+        internal.vertices = vertices;
+        internal.material = external.material;
+        for (const Edge& t : uncovered_tracks(vertices, above.tracks, below.tracks, rho, verdict.stages))
+            internal.pieces.push_back({t.a, t.b, r});
+        internal.region = below.cavity;
+        internal.region_outside = true;
+        for (const Edge& e : below.cavity) internal.sites.push_back({e.a, e.b, rho});
+        for (const Edge& t : below.tracks) internal.sites.push_back({t.a, t.b, r + rho});
+        Window window = window_of_m(internal), cavity = empty_window;
+        for (const Edge& e : below.cavity) grow_window(cavity, internal, e.a, 1);
+        window = {std::max(window.lo_x, cavity.lo_x), std::max(window.lo_y, cavity.lo_y),
+                  std::min(window.hi_x, cavity.hi_x), std::min(window.hi_y, cavity.hi_y)};
+        verdict.internal = decide(internal, window, rho, verdict.stages);
+    }
+    verdict.supported = !verdict.internal;
+    return verdict;
+}
+
+}  // namespace ribvault
