@@ -102,7 +102,7 @@ private:
     static double half_diagonal(const Box& box) { return 0.5 * length(box.hi - box.lo) + 1; }
 
     /// The first pass: the lattice's points, nearest to B_i first. Cells open only when their turn comes, and not at all
-    /// when one wall already covers them.
+    /// when one wall already covers them. Contact at exactly r + ρ counts here: on a lattice it is the normal case.
     void add_pixels() {
         Queue queue;
         for (std::size_t k = 0; k < cells_.size(); ++k) {
@@ -117,15 +117,15 @@ private:
             const Candidate candidate = queue.top();
             queue.pop();
             if (candidate.cell < 0) {
-                if (!supports_.covers(candidate.at, radius_ - slack_)) supports_.add_wall(candidate.at);
+                if (!supports_.covers(candidate.at, radius_)) supports_.add_wall(candidate.at);
                 continue;
             }
             const Cell& cell = cells_[static_cast<std::size_t>(candidate.cell)];
-            if (supports_.covers(candidate.at, radius_ - slack_ - half_diagonal(cell.box))) continue;
+            if (supports_.covers(candidate.at, radius_ - half_diagonal(cell.box))) continue;
             for (Unit bit = 0; bit < cell_pixels * cell_pixels; ++bit) {
                 if (!(cell.pixels >> bit & 1)) continue;
                 const Point p{cell.box.lo.x + bit % cell_pixels * pitch + pitch / 2, cell.box.lo.y + bit / cell_pixels * pitch + pitch / 2};
-                if (!supports_.covers(p, radius_ - slack_)) queue.push(point_candidate(p));
+                if (!supports_.covers(p, radius_)) queue.push(point_candidate(p));
             }
         }
     }
