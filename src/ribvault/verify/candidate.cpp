@@ -22,8 +22,9 @@ Line<NT> line_of(const CoverProblem& problem, const Curve& c) {
 }
 
 // Two circles about c1, c2 = c1 + D: q = c1 + (A D +- sqrt(disc) rot90 D) / D^2 with A = (D^2 + R1^2 - R2^2) / 2 and
-// disc = R1^2 D^2 - A^2. A circle about c and a line: with e = k + cross(d, p - c) and L^2 = d^2,
-// q = c + (e rot90 d +- sqrt(disc) d) / L^2 and disc = R^2 L^2 - e^2. Both are centre + (along u +- sqrt(disc) w) / norm.
+// disc = R1^2 D^2 - A^2. A circle about c and a line: with x = cross(d, p - c), e = x + side R2 L and L^2 = d^2,
+// q = c + (e rot90 d +- sqrt(disc) d) / L^2 and disc = R^2 L^2 - e^2 = ((R - side R2) L - x) ((R + side R2) L + x); the
+// product loses no digits where K's own curves nearly touch (R = R2). Both are centre + (along u +- sqrt(disc) w) / norm.
 template <class NT>
 struct Meeting {
     Vec<NT> centre, u, w;
@@ -36,11 +37,22 @@ Meeting<NT> meeting_of(const CoverProblem& problem, const Curve& circle, const C
     m.centre = exact_point<NT>(problem.vertices[circle.a]);
     const NT r1 = number<NT>(circle.radius);
     if (other.line) {
-        const Line<NT> l = line_of<NT>(problem, other);
-        m.along = NT(l.k + cross(l.d, Vec<NT>(l.p - m.centre)));
-        m.u = {NT(-l.d.y), l.d.x};
-        m.w = l.d;
-        m.norm = dot(l.d, l.d);
+        const Vec<NT> p = exact_point<NT>(problem.vertices[other.a]);
+        const Vec<NT> d = exact_point<NT>(problem.vertices[other.b]) - p;
+        const NT x = cross(d, Vec<NT>(p - m.centre));
+        m.norm = dot(d, d);
+        if (other.side == 0) {
+            m.along = x;
+            m.disc = NT(r1 * r1 * m.norm - x * x);
+        } else {
+            const double offset = other.side * other.radius;
+            const NT length = root(m.norm);
+            m.along = NT(x + number<NT>(offset) * length);
+            m.disc = NT((number<NT>(circle.radius - offset) * length - x) *
+                        (number<NT>(circle.radius + offset) * length + x));
+        }
+        m.u = {NT(-d.y), d.x};
+        m.w = d;
     } else {
         const Vec<NT> d = exact_point<NT>(problem.vertices[other.a]) - m.centre;
         const NT r2 = number<NT>(other.radius);
@@ -48,8 +60,8 @@ Meeting<NT> meeting_of(const CoverProblem& problem, const Curve& circle, const C
         m.along = NT((m.norm + r1 * r1 - r2 * r2) / NT(2));
         m.u = d;
         m.w = {NT(-d.y), d.x};
+        m.disc = NT(r1 * r1 * m.norm - m.along * m.along);
     }
-    m.disc = NT(r1 * r1 * m.norm - m.along * m.along);
     return m;
 }
 
@@ -84,27 +96,6 @@ template <class F>
 int input_sign(const F& f, Stage& stage) {
     const int s = sign_of(f.template operator()<Interval>());
     return s != unknown ? s : exact_sign(f, stage);
-}
-
-[[gnu::noinline]] void refine(Located& v) {
-    CGAL::Protect_FPU_rounding<true> nearest(CGAL_FE_TONEAREST);
-    if (const Vec<Rational>* q = rational_value(v)) {
-        if (v.stage < Stage::rational) v.stage = Stage::rational;
-        const auto enclose = [](const Rational& a) {
-            const double d = a.get_d();  // truncated towards zero
-            return Interval(std::nextafter(d, -HUGE_VAL), std::nextafter(d, HUGE_VAL));
-        };
-        v.x = enclose(q->x), v.y = enclose(q->y);
-        return;
-    }
-    const std::lock_guard lock(algebraic_mutex());
-    v.stage = Stage::algebraic;
-    const Vec<Algebraic> q = locate<Algebraic>(*v.problem, v.candidate);
-    const auto enclose = [](const Algebraic& a) {
-        const std::pair<double, double> range = CGAL::to_interval(a);
-        return Interval(range.first, range.second);
-    };
-    v.x = enclose(q.x), v.y = enclose(q.y);
 }
 
 }  // namespace
@@ -161,15 +152,34 @@ const Vec<Rational>* rational_value(Located& v) {
     return v.rational ? &*v.rational : nullptr;
 }
 
-Located located(const CoverProblem& problem, const Candidate& candidate, double width) {
+Located located(const CoverProblem& problem, const Candidate& candidate) {
     Located v;
     v.problem = &problem;
     v.candidate = candidate;
     const Vec<Interval> p = locate<Interval>(problem, candidate);
     v.x = p.x, v.y = p.y;
-    const auto wide = [width](const Interval& a) { return !(a.sup() - a.inf() <= width); };
-    if (wide(v.x) || wide(v.y)) refine(v);
     return v;
+}
+
+void refine(Located& v) {
+    CGAL::Protect_FPU_rounding<true> nearest(CGAL_FE_TONEAREST);
+    if (const Vec<Rational>* q = rational_value(v)) {
+        if (v.stage < Stage::rational) v.stage = Stage::rational;
+        const auto enclose = [](const Rational& a) {
+            const double d = a.get_d();  // truncated towards zero
+            return Interval(std::nextafter(d, -HUGE_VAL), std::nextafter(d, HUGE_VAL));
+        };
+        v.x = enclose(q->x), v.y = enclose(q->y);
+        return;
+    }
+    const std::lock_guard lock(algebraic_mutex());
+    v.stage = Stage::algebraic;
+    const Vec<Algebraic> q = locate<Algebraic>(*v.problem, v.candidate);
+    const auto enclose = [](const Algebraic& a) {
+        const std::pair<double, double> range = CGAL::to_interval(a);
+        return Interval(range.first, range.second);
+    };
+    v.x = enclose(q.x), v.y = enclose(q.y);
 }
 
 }  // namespace ribvault::verify

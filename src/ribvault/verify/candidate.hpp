@@ -50,8 +50,11 @@ struct Located {
 template <class NT>
 Vec<NT> locate(const CoverProblem& problem, const Candidate& candidate);
 
-/// The candidate with its enclosure, made tighter than `width` (exactly evaluated if need be). Under upward rounding.
-Located located(const CoverProblem& problem, const Candidate& candidate, double width);
+/// The candidate with its enclosure by intervals. Under upward rounding.
+Located located(const CoverProblem& problem, const Candidate& candidate);
+
+/// Makes the enclosure as tight as doubles allow, by exact evaluation; raises the stage.
+void refine(Located& v);
 
 /// How two curves meet: 0, 1 (tangent circles or lines, or two crossing lines) or 2 points; concentric circles and parallel
 /// lines: 0 (what happens along a shared piece is seen at its ends, which are other candidates). Exact; raises `stage`.

@@ -122,7 +122,7 @@ std::vector<int> chain_starts(std::span<const Edge> edges) {
 }
 
 Located at_vertex(const CoverProblem& problem, int vertex) {
-    return located(problem, {Candidate::Kind::vertex, vertex, 0, {}, {}, 0}, HUGE_VAL);
+    return located(problem, {Candidate::Kind::vertex, vertex, 0, {}, {}, 0});
 }
 
 // Closed segments without a common point.

@@ -10,55 +10,101 @@ namespace {
 
 constexpr double half_diagonal = 1.4142135623730952;  // above the square root of 2
 
-bool stadium_contains(const Subdivision& s, const Stadium& stadium, const Cell& cell, double centre_distance) {
-    const double reach = stadium.radius - s.margin;
-    if (centre_distance > reach) return false;
+Track track_of(const CoverProblem& problem, int a, int b) {
+    const Vertex &p = problem.vertices[a], &q = problem.vertices[b];
+    const double dx = q.cx - p.cx, dy = q.cy - p.cy, norm = dx * dx + dy * dy;
+    return {p.cx, p.cy, dx, dy, norm > 0 ? 1 / norm : 0};
+}
+
+double squared_distance(const Track& t, double x, double y) {
+    const double vx = x - t.ax, vy = y - t.ay;
+    double along = (vx * t.dx + vy * t.dy) * t.inverse_norm;
+    along = along > 0 ? along : 0;
+    along = along < 1 ? along : 1;
+    const double ex = vx - along * t.dx, ey = vy - along * t.dy;
+    return ex * ex + ey * ey;
+}
+
+// `centre_distance`: from the cell's centre to the stadium's segment.
+bool stadium_contains(const Subdivision& s, const Track& track, double radius, const Cell& cell, double centre_distance) {
+    const double reach = radius - s.margin;
     if (centre_distance + cell.half * half_diagonal <= reach) return true;
-    if (centre_distance + cell.half > reach) return false;
+    if (centre_distance + cell.half > reach || reach < 0) return false;
     for (const double dx : {-cell.half, cell.half})
         for (const double dy : {-cell.half, cell.half})
-            if (distance(*s.problem, stadium.a, stadium.b, cell.x + dx, cell.y + dy) > reach) return false;
+            if (squared_distance(track, cell.x + dx, cell.y + dy) > reach * reach) return false;
     return true;
 }
 
-// Moves the child's reference point off all lines and counts the parent's edges between it and the parent's.
-void refer(const CoverProblem& problem, const Cell& parent, Cell& child) {
-    double u = 0.1379, w = 0.0713;
-    for (;;) {
-        child.ref_x = child.x + u * child.half, child.ref_y = child.y + w * child.half;
-        if (off_lines(problem, problem.material, view(parent.edges), child.ref_x, child.ref_y) &&
-            off_lines(problem, problem.region, view(parent.region), child.ref_x, child.ref_y))
-            break;
-        u = std::fmod(u + 0.6180339887, 1.0), w = std::fmod(w + 0.7548776662, 1.0);
+// Sign of cross(d, v), or 0 when it may be wrong. Each coordinate difference is off by at most 2^-15 margin (its vertices by
+// 2^-50 c, margin being 2^-34 c), and the products and their difference by 2^-51 of their sizes.
+int certain_turn(const Subdivision& s, double dx, double dy, double vx, double vy) {
+    const double p = dx * vy, q = dy * vx;
+    const double error = 0x1p-14 * s.margin * (std::abs(dx) + std::abs(dy) + std::abs(vx) + std::abs(vy)) +
+                         0x1p-50 * (std::abs(p) + std::abs(q) + s.margin * s.margin);
+    return p - q > error ? 1 : p - q < -error ? -1 : 0;
+}
+int certain_side(const Subdivision& s, const Track& t, double x, double y) {
+    return certain_turn(s, t.dx, t.dy, x - t.ax, y - t.ay);
+}
+
+bool certainly_off_lines(const Subdivision& s, const std::vector<Track>& tracks, const Indices& which, double x, double y) {
+    return std::all_of(which.begin(), which.end(), [&](int i) { return certain_side(s, tracks[i], x, y) != 0; });
+}
+
+// Whether the vertex is left of, or on, the line from (x, y) to (u, w); exact when doubles do not tell.
+bool left_of_path(const Subdivision& s, int vertex, double x, double y, double u, double w) {
+    const Vertex& v = s.problem->vertices[vertex];
+    const int turn = certain_turn(s, u - x, w - y, v.cx - x, v.cy - y);
+    if (turn != 0) return turn > 0;
+    const Vec<Rational> from{Rational(x), Rational(y)};
+    return sign_of(cross(Vec<Rational>(Vec<Rational>{Rational(u), Rational(w)} - from),
+                         Vec<Rational>(exact_point<Rational>(v) - from))) >= 0;
+}
+
+int path_crossings(const Subdivision& s, const std::vector<Track>& tracks, const std::vector<Edge>& edges,
+                   const Indices& which, const Cell& cell, double to_x, double to_y) {
+    int winding = 0;
+    for (const int i : which) {
+        const int side = certain_side(s, tracks[i], to_x, to_y);
+        if (side == certain_side(s, tracks[i], cell.ref_x, cell.ref_y)) continue;
+        if (left_of_path(s, edges[i].a, cell.ref_x, cell.ref_y, to_x, to_y) ==
+            left_of_path(s, edges[i].b, cell.ref_x, cell.ref_y, to_x, to_y))
+            continue;
+        winding += side;
     }
-    child.material_winding = parent.material_winding;
-    child.region_winding = parent.region_winding;
-    if (parent.edges.empty() && parent.region.empty()) return;
-    Located to = double_point(problem, child.ref_x, child.ref_y);
-    child.material_winding += crossings(problem.material, view(parent.edges), parent.ref_x, parent.ref_y, to);
-    child.region_winding += crossings(problem.region, view(parent.region), parent.ref_x, parent.ref_y, to);
+    return winding;
 }
 
 }  // namespace
 
-double distance(const CoverProblem& problem, int a, int b, double x, double y) {
-    const Vertex &p = problem.vertices[a], &q = problem.vertices[b];
-    const double dx = q.cx - p.cx, dy = q.cy - p.cy, vx = x - p.cx, vy = y - p.cy;
-    const double norm = dx * dx + dy * dy;
-    const double t = norm > 0 ? std::clamp((vx * dx + vy * dy) / norm, 0.0, 1.0) : 0.0;
-    const double ex = vx - t * dx, ey = vy - t * dy;
-    return std::sqrt(ex * ex + ey * ey);
+// The centre is a corner of all quarters, which inherit it, up to a few margins by which it may have to leave a line.
+void refer_to_centre(const Subdivision& s, Cell& cell) {
+    double x = cell.x, y = cell.y, u = 0.37, w = 0.59;
+    while (!certainly_off_lines(s, s.material, cell.edges, x, y) || !certainly_off_lines(s, s.sites, cell.region, x, y)) {
+        x = cell.x + (6 * u - 3) * s.margin, y = cell.y + (6 * w - 3) * s.margin;
+        u = std::fmod(u + 0.6180339887, 1.0), w = std::fmod(w + 0.7548776662, 1.0);
+    }
+    cell.material_winding += path_crossings(s, s.material, s.problem->material, cell.edges, cell, x, y);
+    cell.region_winding += path_crossings(s, s.sites, s.problem->region, cell.region, cell, x, y);
+    cell.ref_x = x, cell.ref_y = y;
 }
 
 // With coordinates and radii below c, a vertex's place is off by at most 2^-50 c, and a point at the clamped parameter t is
 // on the segment up to 2^-50 c whatever the error of t; an error of t moves the distance in second order only. So every
-// distance is right within 2^-46 c, and 2^-40 c leaves room for the sums around it.
+// distance is right within 2^-46 c. 2^-34 c is far above that, and wide enough for the intervals of most candidates.
 Subdivision subdivision(const CoverProblem& problem) {
     double c = 1;
     for (const Vertex& v : problem.vertices) c = std::max({c, std::abs(v.cx), std::abs(v.cy)});
     for (const Stadium& s : problem.sites) c = std::max(c, s.radius);
     for (const Stadium& s : problem.pieces) c = std::max(c, s.radius);
-    return {&problem, std::ldexp(c, -40)};
+    Subdivision s;
+    s.problem = &problem;
+    s.margin = std::ldexp(c, -34);
+    for (const Stadium& t : problem.sites) s.sites.push_back(track_of(problem, t.a, t.b));
+    for (const Edge& t : problem.material) s.material.push_back(track_of(problem, t.a, t.b));
+    for (const Stadium& t : problem.pieces) s.pieces.push_back(track_of(problem, t.a, t.b));
+    return s;
 }
 
 Cell root_cell(const Subdivision& s, const Window& window) {
@@ -67,70 +113,58 @@ Cell root_cell(const Subdivision& s, const Window& window) {
         list.resize(n);
         std::iota(list.begin(), list.end(), 0);
     };
-    // From a point left of and below everything, where both winding numbers are 0.
-    Cell outside;
-    all(outside.edges, problem.material.size());
-    all(outside.region, problem.region.size());
-    double lo_x = window.lo_x, lo_y = window.lo_y;
-    for (const Vertex& v : problem.vertices) lo_x = std::min(lo_x, v.cx), lo_y = std::min(lo_y, v.cy);
-    double step = 1 + window.hi_x - window.lo_x;
-    do {
-        step *= 1.0378;
-        outside.ref_x = lo_x - step, outside.ref_y = lo_y - 0.7231 * step;
-    } while (!off_lines(problem, problem.material, view(outside.edges), outside.ref_x, outside.ref_y) ||
-             !off_lines(problem, problem.region, view(outside.region), outside.ref_x, outside.ref_y));
-
     Cell cell;
-    cell.x = (window.lo_x + window.hi_x) / 2, cell.y = (window.lo_y + window.hi_y) / 2;
-    cell.half = std::max(window.hi_x - window.lo_x, window.hi_y - window.lo_y) / 2 + 64 * s.margin;
-    cell.edges = outside.edges, cell.region = outside.region;
+    // A little larger and off the middle: symmetric input has its edges on lines through the middle.
+    const double half = std::max(window.hi_x - window.lo_x, window.hi_y - window.lo_y) / 2;
+    cell.x = (window.lo_x + window.hi_x) / 2 + 0.0137 * half, cell.y = (window.lo_y + window.hi_y) / 2 - 0.0091 * half;
+    cell.half = 1.0173 * half + 64 * s.margin;
+    all(cell.edges, problem.material.size());
+    all(cell.region, problem.region.size());
     all(cell.sites, problem.sites.size());
     all(cell.pieces, problem.pieces.size());
-    refer(problem, outside, cell);
+    // Left of and below everything both winding numbers are 0.
+    double lo_x = window.lo_x, lo_y = window.lo_y;
+    for (const Vertex& v : problem.vertices) lo_x = std::min(lo_x, v.cx), lo_y = std::min(lo_y, v.cy);
+    double step = 1 + cell.half;
+    do {
+        step *= 1.0378;
+        cell.ref_x = lo_x - step, cell.ref_y = lo_y - 0.7231 * step;
+    } while (!certainly_off_lines(s, s.material, cell.edges, cell.ref_x, cell.ref_y) ||
+             !certainly_off_lines(s, s.sites, cell.region, cell.ref_x, cell.ref_y));
     return cell;
 }
 
-CellState state_of(const Subdivision& s, const Cell& cell) {
+CellState quarter(const Subdivision& s, const Cell& parent, int index, Cell& cell) {
     const CoverProblem& problem = *s.problem;
-    if (cell.edges.empty() && cell.material_winding == 0 && cell.pieces.empty()) return CellState::settled;
-    if (cell.region.empty() && in_region(problem, cell.region_winding)) return CellState::settled;
-    for (const int i : cell.sites) {
-        const Stadium& site = problem.sites[i];
-        if (stadium_contains(s, site, cell, distance(problem, site.a, site.b, cell.x, cell.y))) return CellState::settled;
-    }
-    if (!cell.sites.empty() || !cell.region.empty()) return CellState::open;
-    if (cell.edges.empty() && cell.material_winding != 0) return CellState::uncovered;
-    for (const int i : cell.pieces) {
-        const Stadium& piece = problem.pieces[i];
-        if (stadium_contains(s, piece, cell, distance(problem, piece.a, piece.b, cell.x, cell.y)))
-            return CellState::uncovered;
-    }
-    return CellState::open;
-}
-
-Cell quarter(const Subdivision& s, const Cell& parent, int index) {
-    const CoverProblem& problem = *s.problem;
-    Cell cell;
     cell.half = parent.half / 2;
     cell.x = parent.x + (index & 1 ? cell.half : -cell.half);
     cell.y = parent.y + (index & 2 ? cell.half : -cell.half);
+    cell.sites.clear(), cell.edges.clear(), cell.pieces.clear(), cell.region.clear();
     const double reach = cell.half * half_diagonal + 8 * s.margin;
+    const int region_edges = static_cast<int>(problem.region.size());
     for (const int i : parent.sites) {
-        const Stadium& site = problem.sites[i];
-        if (distance(problem, site.a, site.b, cell.x, cell.y) <= site.radius + reach) cell.sites.push_back(i);
-    }
-    for (const int i : parent.pieces) {
-        const Stadium& piece = problem.pieces[i];
-        if (distance(problem, piece.a, piece.b, cell.x, cell.y) <= piece.radius + reach) cell.pieces.push_back(i);
+        const double radius = problem.sites[i].radius, squared = squared_distance(s.sites[i], cell.x, cell.y);
+        if (squared > (radius + reach) * (radius + reach)) continue;
+        const double d = std::sqrt(squared);
+        if (stadium_contains(s, s.sites[i], radius, cell, d)) return CellState::settled;
+        cell.sites.push_back(i);
+        if (i < region_edges && d <= reach) cell.region.push_back(i);
     }
     for (const int i : parent.edges)
-        if (distance(problem, problem.material[i].a, problem.material[i].b, cell.x, cell.y) <= reach)
-            cell.edges.push_back(i);
-    for (const int i : parent.region)
-        if (distance(problem, problem.region[i].a, problem.region[i].b, cell.x, cell.y) <= reach)
-            cell.region.push_back(i);
-    refer(problem, parent, cell);
-    return cell;
+        if (squared_distance(s.material[i], cell.x, cell.y) <= reach * reach) cell.edges.push_back(i);
+    bool in_piece = false;
+    for (const int i : parent.pieces) {
+        const double radius = problem.pieces[i].radius, squared = squared_distance(s.pieces[i], cell.x, cell.y);
+        if (squared > (radius + reach) * (radius + reach)) continue;
+        cell.pieces.push_back(i);
+        in_piece = in_piece || stadium_contains(s, s.pieces[i], radius, cell, std::sqrt(squared));
+    }
+    cell.ref_x = parent.ref_x, cell.ref_y = parent.ref_y;
+    cell.material_winding = parent.material_winding, cell.region_winding = parent.region_winding;
+    if (cell.edges.empty() && cell.material_winding == 0 && cell.pieces.empty()) return CellState::settled;
+    if (cell.region.empty() && in_region(problem, cell.region_winding)) return CellState::settled;
+    if (!cell.sites.empty()) return CellState::open;
+    return in_piece || (cell.edges.empty() && cell.material_winding != 0) ? CellState::uncovered : CellState::open;
 }
 
 }  // namespace ribvault::verify

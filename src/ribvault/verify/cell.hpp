@@ -14,8 +14,9 @@ inline std::span<const int> view(const Indices& list) { return {list.data(), lis
 struct Cell {
     double x = 0, y = 0, half = 0;
     Indices sites, edges, pieces, region;
-    double ref_x = 0, ref_y = 0;  ///< a point of the cell on no line of the edges of its parent
-    int material_winding = 0, region_winding = 0;  ///< there
+    /// A point of the cell (or of the margin around it) on no line of its edges, and the winding numbers there.
+    double ref_x = 0, ref_y = 0;
+    int material_winding = 0, region_winding = 0;
 };
 
 enum class CellState {
@@ -24,19 +25,26 @@ enum class CellState {
     open
 };
 
+/// A segment in doubles, prepared for distances.
+struct Track {
+    double ax = 0, ay = 0, dx = 0, dy = 0, inverse_norm = 0;  ///< inverse_norm 0: a point
+};
+
 /// Cells of one problem. Distances are computed in doubles; `margin` is far above their error, see subdivision().
 struct Subdivision {
     const CoverProblem* problem = nullptr;
     double margin = 0;
+    std::vector<Track> sites, material, pieces;
 };
 Subdivision subdivision(const CoverProblem& problem);
 
+/// The first cell, always open: it holds everything and covers the window.
 Cell root_cell(const Subdivision& s, const Window& window);
-CellState state_of(const Subdivision& s, const Cell& cell);
-/// Quarter 0..3 of a cell.
-Cell quarter(const Subdivision& s, const Cell& cell, int index);
 
-/// Distance from (x, y) to the segment between the approximate places of vertices a and b.
-double distance(const CoverProblem& problem, int a, int b, double x, double y);
+/// Moves the reference point of an open cell to its centre. Needed before its quarters are taken.
+void refer_to_centre(const Subdivision& s, Cell& cell);
+
+/// Quarter 0..3 of an open cell into `cell`, and its state. The lists and windings are complete when it is open.
+CellState quarter(const Subdivision& s, const Cell& parent, int index, Cell& cell);
 
 }  // namespace ribvault::verify

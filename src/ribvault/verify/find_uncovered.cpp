@@ -58,13 +58,27 @@ struct Leaf {
                 curves.push_back({true, stadium.a, stadium.b, side, stadium.radius, from_material});
     }
 
+    bool outside(const Located& v) const {
+        const double limit = cell.half + 4 * s.margin;
+        return v.x.sup() < cell.x - limit || v.x.inf() > cell.x + limit || v.y.sup() < cell.y - limit ||
+               v.y.inf() > cell.y + limit;
+    }
+
     // Whether the candidate refutes M inside K.
     bool refutes(const Candidate& candidate, Stage already, Uncovered& found) {
-        Located v = located(*s.problem, candidate, s.margin);
-        const double m = 4 * s.margin;
-        if (v.x.sup() < cell.x - cell.half - m || v.x.inf() > cell.x + cell.half + m ||
-            v.y.sup() < cell.y - cell.half - m || v.y.inf() > cell.y + cell.half + m)
-            return false;
+        Located v = located(*s.problem, candidate);
+        if (outside(v)) return false;
+        const auto wide = [&](const Interval& a) { return !(a.sup() - a.inf() <= s.margin); };
+        if (wide(v.x) || wide(v.y)) {
+            // Curves that nearly touch. Certainly inside a site is as good as a place; else the lists need one.
+            for (const int i : cell.sites)
+                if (side_of_stadium(v, s.problem->sites[i], Stage::interval) == Side::inside) {
+                    count(stages, already);
+                    return false;
+                }
+            refine(v);
+            if (outside(v)) return false;
+        }
         Vec<double> hint{1, 0};
         const Local local = decide_locally(v, near, hint);
         count(stages, std::max(v.stage, already));
@@ -133,18 +147,10 @@ std::optional<Uncovered> find_uncovered(const CoverProblem& problem, const Windo
     for (const Stadium& site : problem.sites)
         smallest = smallest == 0 ? site.radius : std::min(smallest, site.radius);
     std::vector<Cell> open{root_cell(s, window)};
+    Cell child;
     while (!open.empty()) {
-        const Cell cell = std::move(open.back());
+        Cell cell = std::move(open.back());
         open.pop_back();
-        const CellState state = state_of(s, cell);
-        if (state == CellState::settled) {
-            ++stages.interval;
-            continue;
-        }
-        if (state == CellState::uncovered) {
-            ++stages.interval;
-            return Uncovered{cell.x, cell.y, {1, 0}};
-        }
         // A cell smaller than this that meets the boundary of K's region lies in the stadium there, so it is settled.
         const bool few = cell.sites.size() <= 3 && cell.edges.size() <= 4 && cell.pieces.size() <= 2;
         if (cell.region.empty() && (few || cell.half < smallest / 16)) {
@@ -152,7 +158,16 @@ std::optional<Uncovered> find_uncovered(const CoverProblem& problem, const Windo
             if (Leaf(s, cell, stages).refute(found)) return found;
             continue;
         }
-        for (int i = 0; i < 4; ++i) open.push_back(quarter(s, cell, i));
+        refer_to_centre(s, cell);
+        for (int i = 0; i < 4; ++i) {
+            const CellState state = quarter(s, cell, i, child);
+            if (state == CellState::open) {
+                open.push_back(std::move(child));
+                continue;
+            }
+            ++stages.interval;
+            if (state == CellState::uncovered) return Uncovered{child.x, child.y, {1, 0}};
+        }
     }
     return std::nullopt;
 }

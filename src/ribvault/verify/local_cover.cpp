@@ -327,7 +327,12 @@ int crossings(std::span<const Edge> all, std::span<const int> which, double from
     int winding = 0;
     for (const int e : which) {
         const int to_side = orientation_sign(to, all[e].a, all[e].b, exact);
-        if (to_side == line_side(problem, all[e], from_x, from_y)) continue;
+        int from_side = line_side(problem, all[e], from_x, from_y);
+        if (from_side == unknown) {
+            Located from = double_point(problem, from_x, from_y);
+            from_side = orientation_sign(from, all[e].a, all[e].b, exact);
+        }
+        if (to_side == from_side) continue;
         if (left_of_path(all[e].a) == left_of_path(all[e].b)) continue;
         winding += to_side > 0 ? 1 : -1;
     }

@@ -23,7 +23,7 @@ struct Uncovered {
 /// Under upward rounding; adds to `stages`.
 std::optional<Uncovered> find_uncovered(const CoverProblem& problem, const Window& window, StageCounts& stages);
 
-/// Certified enclosure of the area of M \ K, to about 1 % or as far as `max_cells` cells go, and the largest cell found
+/// Certified enclosure of the area of M \ K, to about 1 % or as far as about `max_cells` cells go, and the largest cell found
 /// that lies in M \ K as a whole.
 struct AreaEnclosure {
     double lo = 0, hi = 0;  ///< square lattice units

@@ -10,7 +10,7 @@ namespace ribvault::verify {
 
 namespace {
 
-constexpr int area_cells = 4096;
+constexpr int area_cells = 12000;
 
 Located mm_point(const CoverProblem& problem, const std::array<double, 2>& mm) {
     const double scale = static_cast<double>(units_per_mm);
@@ -63,7 +63,7 @@ std::optional<std::array<double, 2>> search(const CoverProblem& problem, const U
     double step = reach;
     for (int k = 0; k < 44; ++k, step /= 2) {
         double turn = 2.9;
-        for (int j = 0; j < 24; ++j, turn *= 0.6)
+        for (int j = 0; j < 48; ++j, turn *= 0.6)
             for (const double t : {turn, -turn})
                 if (const auto found = attempt(start.x + step * std::cos(base + t), start.y + step * std::sin(base + t)))
                     return found;
