@@ -1,0 +1,288 @@
+#include "ribvault/slice/slice_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+#include "ribvault/error.hpp"
+#include "ribvault/slice/close_gaps.hpp"
+#include "ribvault/slice/nest_contours.hpp"
+
+namespace ribvault {
+namespace {
+
+using Number = ExactKernel::FT;
+
+Number exact_number(const Rational& q) { return Number(Number::ET(q)); }
+
+std::string describe(const std::vector<GapClosing>& gaps, std::size_t count) {
+    std::ostringstream text;
+    for (std::size_t k = 0; k < std::min<std::size_t>(gaps.size(), 3); ++k)
+        text << (k ? "; " : "") << gaps[k].length << " mm wide on layer " << gaps[k].layer << " at (" << gaps[k].x << ", "
+             << gaps[k].y << ") mm";
+    if (count > 3) text << "; ...";
+    return text.str();
+}
+
+[[noreturn]] void refuse_open(std::vector<GapClosing> gaps, const std::string& where, const Settings& settings) {
+    std::stable_sort(gaps.begin(), gaps.end(), [](const GapClosing& a, const GapClosing& b) { return a.length > b.length; });
+    std::ostringstream text;
+    text << "the mesh is open: " << gaps.size() << (gaps.size() == 1 ? " gap" : " gaps") << " wider than " << to_mm(settings.max_gap)
+         << " mm " << where << " (" << describe(gaps, gaps.size()) << "); repair the mesh, or allow wider gaps with --max-gap";
+    throw Error(ErrorKind::bad_geometry, text.str());
+}
+
+}  // namespace
+
+/// Contours of one layer as mesh edges in order: closed ones, and chains with two ends.
+struct Slicer::Contours {
+    std::vector<std::vector<std::int32_t>> closed, open;
+};
+
+Rational Slicer::plane_height(int layer) const {
+    Rational first(settings_.first_layer_height, units_per_mm), height(settings_.layer_height, units_per_mm);
+    first.canonicalize(), height.canonicalize();
+    if (layer == 0) return first / 2;
+    return first + height * Rational(2 * layer - 1, 2);
+}
+
+Slicer::Slicer(const Mesh& mesh, const Placement& placement, const Settings& settings)
+    : mesh_(mesh), placement_(placement), settings_(settings) {
+    const auto vertices = static_cast<std::size_t>(mesh.vertices.cols()), triangles = static_cast<std::size_t>(mesh.triangles.cols());
+    const auto height = [&](std::size_t v) {
+        return placement_.sign[2] * mesh_.vertices(placement_.axis[2], static_cast<Eigen::Index>(v));
+    };
+    // In the file's units, plane i lies at base + i * step for i >= 1. A vertex's count of planes is exact: the double
+    // quotient is off by far less than one, and whether the nearest plane lies at or below is compared exactly.
+    const Rational base = (plane_height(1) - placement_.offset[2]) / placement_.scale - (plane_height(2) - plane_height(1)) / placement_.scale;
+    const Rational step = (plane_height(2) - plane_height(1)) / placement_.scale;
+    const Rational lowest = (plane_height(0) - placement_.offset[2]) / placement_.scale;
+    const double base_d = base.get_d(), step_d = step.get_d();
+    const auto plane = [&](std::int64_t i) { return i == 0 ? lowest : Rational(base + step * Rational(static_cast<long>(i))); };
+    planes_below_.resize(vertices);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        const double z = height(v), quotient = (z - base_d) / step_d;
+        std::int64_t count = static_cast<std::int64_t>(std::floor(std::clamp(quotient, 0.0, 1e9))) + 1;  // planes 0 .. floor
+        // base_d, step_d, the difference and the quotient each round once, relative error 2^-53: together less than this.
+        const double bound = 0x1p-49 * ((std::fabs(z) + std::fabs(base_d)) / step_d + std::fabs(quotient) + 1);
+        if (quotient < 1.5 || std::fabs(quotient - std::round(quotient)) <= bound) {
+            const Rational exact(z);
+            while (count > 0 && plane(count - 1) > exact) --count;
+            while (plane(count) <= exact) ++count;
+        }
+        planes_below_[v] = static_cast<std::int32_t>(count);
+        // A layer exists when its plane lies below the top: the top vertex itself may lie on a plane that cuts nothing.
+        layers_ = std::max(layers_, static_cast<int>(count));
+    }
+
+    edge_of_.resize(3 * triangles);
+    std::vector<std::uint32_t> order(3 * triangles);
+    std::iota(order.begin(), order.end(), 0u);
+    const auto ends = [&](std::uint32_t k) {
+        const auto t = static_cast<Eigen::Index>(k / 3);
+        const std::int32_t a = mesh_.triangles(k % 3, t), b = mesh_.triangles((k + 1) % 3, t);
+        return std::array<std::int32_t, 2>{std::min(a, b), std::max(a, b)};
+    };
+    std::vector<std::array<std::int32_t, 2>> corner_ends(order.size());
+    for (std::uint32_t k = 0; k < order.size(); ++k) corner_ends[k] = ends(k);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return corner_ends[a] < corner_ends[b]; });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        if (k == 0 || corner_ends[order[k]] != corner_ends[order[k - 1]]) edge_ends_.push_back(corner_ends[order[k]]);
+        edge_of_[order[k]] = static_cast<std::int32_t>(edge_ends_.size()) - 1;
+    }
+
+    const auto span = [&](std::size_t t) {
+        std::int32_t lo = std::numeric_limits<std::int32_t>::max(), hi = 0;
+        for (int k = 0; k < 3; ++k) {
+            const std::int32_t c = planes_below_[static_cast<std::size_t>(mesh_.triangles(k, static_cast<Eigen::Index>(t)))];
+            lo = std::min(lo, c), hi = std::max(hi, c);
+        }
+        return std::pair(lo, hi);
+    };
+    layer_starts_.assign(static_cast<std::size_t>(layers_) + 1, 0);
+    for (std::size_t t = 0; t < triangles; ++t)
+        for (auto [i, hi] = span(t); i < hi; ++i) ++layer_starts_[static_cast<std::size_t>(i) + 1];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(layers_); ++i) layer_starts_[i + 1] += layer_starts_[i];
+    layer_triangles_.resize(layer_starts_.back());
+    std::vector<std::uint32_t> next(layer_starts_.begin(), layer_starts_.end() - 1);
+    for (std::size_t t = 0; t < triangles; ++t)
+        for (auto [i, hi] = span(t); i < hi; ++i) layer_triangles_[next[static_cast<std::size_t>(i)]++] = static_cast<std::uint32_t>(t);
+    while (layers_ > 0 && layer_starts_[static_cast<std::size_t>(layers_)] == layer_starts_[static_cast<std::size_t>(layers_) - 1]) --layers_;
+}
+
+Slicer::Contours Slicer::trace(int layer) const {
+    const bool mirrored = [&] {
+        int sign = placement_.sign[0] * placement_.sign[1] * placement_.sign[2];
+        for (int i = 0; i < 3; ++i)
+            for (int j = i + 1; j < 3; ++j)
+                if (placement_.axis[static_cast<std::size_t>(i)] > placement_.axis[static_cast<std::size_t>(j)]) sign = -sign;
+        return sign < 0;
+    }();
+    // Every crossed triangle leads from one mesh edge to another, material to the left seen from above.
+    struct Link {
+        std::int32_t from, to;
+        bool operator<(const Link& o) const { return from != o.from ? from < o.from : to < o.to; }
+    };
+    std::vector<Link> links;
+    const auto index = static_cast<std::size_t>(layer);
+    for (std::uint32_t k = layer_starts_[index]; k < layer_starts_[index + 1]; ++k) {
+        const std::uint32_t t = layer_triangles_[k];
+        bool above[3];
+        for (int c = 0; c < 3; ++c)
+            above[c] = planes_below_[static_cast<std::size_t>(mesh_.triangles(c, static_cast<Eigen::Index>(t)))] > layer;
+        int rising = -1, falling = -1;  // the sides on which the triangle's boundary rises above and falls below the plane
+        for (int c = 0; c < 3; ++c) {
+            if (!above[c] && above[(c + 1) % 3]) rising = c;
+            if (above[c] && !above[(c + 1) % 3]) falling = c;
+        }
+        Link link{edge_of_[3 * t + static_cast<std::uint32_t>(falling)], edge_of_[3 * t + static_cast<std::uint32_t>(rising)]};
+        if (mirrored) std::swap(link.from, link.to);
+        links.push_back(link);
+    }
+    std::sort(links.begin(), links.end());
+
+    std::vector<char> used(links.size(), 0);
+    const auto follow = [&](std::int32_t edge) -> std::size_t {  // the first unused link that starts on the edge
+        auto it = std::lower_bound(links.begin(), links.end(), Link{edge, std::numeric_limits<std::int32_t>::min()});
+        for (; it != links.end() && it->from == edge; ++it)
+            if (!used[static_cast<std::size_t>(it - links.begin())]) return static_cast<std::size_t>(it - links.begin());
+        return links.size();
+    };
+    Contours contours;
+    const auto walk = [&](std::size_t link) {
+        std::vector<std::int32_t> chain{links[link].from};
+        while (link < links.size()) {
+            used[link] = 1;
+            chain.push_back(links[link].to);
+            if (chain.back() == chain.front()) break;
+            link = follow(chain.back());
+        }
+        const bool closed = chain.back() == chain.front();
+        if (closed) chain.pop_back();
+        (closed ? contours.closed : contours.open).push_back(std::move(chain));
+    };
+    // Chains begin on edges that more links leave than reach.
+    std::vector<std::int32_t> reached(links.size());
+    std::transform(links.begin(), links.end(), reached.begin(), [](const Link& l) { return l.to; });
+    std::sort(reached.begin(), reached.end());
+    for (std::size_t k = 0; k < links.size();) {
+        std::size_t same = k;
+        while (same < links.size() && links[same].from == links[k].from) ++same;
+        const auto arriving = std::equal_range(reached.begin(), reached.end(), links[k].from);
+        for (std::ptrdiff_t surplus = static_cast<std::ptrdiff_t>(same - k) - (arriving.second - arriving.first); surplus > 0; --surplus) {
+            const std::size_t link = follow(links[k].from);
+            if (link < links.size()) walk(link);
+        }
+        k = same;
+    }
+    for (std::size_t k = 0; k < links.size(); ++k)
+        if (!used[k]) walk(k);
+    return contours;
+}
+
+namespace {
+
+/// Computes slice vertices: where a mesh edge crosses the plane. Always from the same end, so that both triangles at the
+/// edge give the same number.
+class Intersector {
+public:
+    Intersector(const Mesh& mesh, const Placement& placement, const Rational& plane)
+        : mesh_(mesh), placement_(placement), z_(exact_number((plane - placement.offset[2]) / placement.scale)),
+          scale_(exact_number(placement.scale)), x_(exact_number(placement.offset[0])), y_(exact_number(placement.offset[1])) {}
+
+    ExactPoint at(const std::array<std::int32_t, 2>& ends) const {
+        const Number z0(coordinate(2, ends[0])), z1(coordinate(2, ends[1]));
+        const Number t = (z_ - z0) / (z1 - z0);
+        return {bed(0, ends, t, x_), bed(1, ends, t, y_)};
+    }
+
+private:
+    double coordinate(std::size_t k, std::int32_t vertex) const {
+        return placement_.sign[k] * mesh_.vertices(placement_.axis[k], vertex);
+    }
+    Number bed(std::size_t k, const std::array<std::int32_t, 2>& ends, const Number& t, const Number& offset) const {
+        const double a = coordinate(k, ends[0]), b = coordinate(k, ends[1]);
+        if (a == b) return scale_ * Number(a) + offset;
+        return scale_ * (Number(a) + t * (Number(b) - Number(a))) + offset;
+    }
+    const Mesh& mesh_;
+    const Placement& placement_;
+    Number z_, scale_, x_, y_;
+};
+
+void drop_repeated(ExactContour& contour, bool closed) {
+    contour.erase(std::unique(contour.begin(), contour.end()), contour.end());
+    while (closed && contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();
+}
+
+Contour rounded(const ExactPolygon& polygon) {
+    Contour contour;
+    for (auto v = polygon.vertices_begin(); v != polygon.vertices_end(); ++v) {
+        const Point p{round_to_lattice(CGAL::to_double(v->x()) * units_per_mm), round_to_lattice(CGAL::to_double(v->y()) * units_per_mm)};
+        if (contour.empty() || contour.back() != p) contour.push_back(p);
+    }
+    while (contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();
+    return contour;
+}
+
+ClosedGaps close_contours(const std::vector<std::vector<std::int32_t>>& closed, const std::vector<std::vector<std::int32_t>>& open,
+                          const std::vector<std::array<std::int32_t, 2>>& edge_ends, const Intersector& intersector, int layer, Unit max_gap) {
+    const auto points = [&](const std::vector<std::int32_t>& edges, bool is_closed) {
+        ExactContour contour;
+        contour.reserve(edges.size());
+        for (const std::int32_t e : edges) contour.push_back(intersector.at(edge_ends[static_cast<std::size_t>(e)]));
+        drop_repeated(contour, is_closed);
+        return contour;
+    };
+    ClosedGaps result;
+    if (!open.empty()) {
+        std::vector<ExactContour> chains;
+        for (const auto& chain : open) chains.push_back(points(chain, false));
+        result = close_gaps(std::move(chains), layer, max_gap);
+        for (ExactContour& contour : result.contours) drop_repeated(contour, true);
+    }
+    for (const auto& contour : closed) result.contours.push_back(points(contour, true));
+    std::erase_if(result.contours, [](const ExactContour& c) { return c.size() < 3; });
+    return result;
+}
+
+}  // namespace
+
+Slice Slicer::slice(int layer, std::vector<GapClosing>* closings) const {
+    const Intersector intersector(mesh_, placement_, plane_height(layer));
+    const Contours contours = trace(layer);
+    ClosedGaps gaps = close_contours(contours.closed, contours.open, edge_ends_, intersector, layer, settings_.max_gap);
+    if (!gaps.open.empty()) refuse_open(gaps.open, "on layer " + std::to_string(layer), settings_);
+    if (closings) closings->insert(closings->end(), gaps.closings.begin(), gaps.closings.end());
+
+    Slice slice;
+    slice.layer = layer;
+    std::optional<ExactPolygons> polygons = nest_contours(gaps.contours);
+    slice.exact = std::make_shared<const ExactPolygons>(polygons ? std::move(*polygons) : regularise(gaps.contours));
+    for (const ExactPolygonWithHoles& polygon : slice.exact->polygons) {
+        slice.rounded.push_back(rounded(polygon.outer_boundary()));
+        for (auto hole = polygon.holes_begin(); hole != polygon.holes_end(); ++hole) slice.rounded.push_back(rounded(*hole));
+    }
+    std::erase_if(slice.rounded, [](const Contour& c) { return c.size() < 3; });
+    return slice;
+}
+
+std::vector<GapClosing> Slicer::open_gaps(int layer) const {
+    const Contours contours = trace(layer);
+    if (contours.open.empty()) return {};
+    const Intersector intersector(mesh_, placement_, plane_height(layer));
+    return close_contours({}, contours.open, edge_ends_, intersector, layer, settings_.max_gap).open;
+}
+
+void require_closed_contours(const Slicer& slicer, const Settings& settings) {
+    std::vector<GapClosing> gaps;
+    for (int layer = 0; layer < slicer.layer_count(); ++layer) {
+        const std::vector<GapClosing> here = slicer.open_gaps(layer);
+        gaps.insert(gaps.end(), here.begin(), here.end());
+    }
+    if (!gaps.empty()) refuse_open(std::move(gaps), "on all layers together", settings);
+}
+
+}  // namespace ribvault
