@@ -32,9 +32,8 @@ Contour star(Random& g, Unit half, Grain grain) {
         std::erase_if(points, [](Point p) { return p == Point{}; });
         const auto cross = [](Point p, Point q) { return p.x * q.y - p.y * q.x; };
         const auto lower = [](Point p) { return p.y < 0 || (p.y == 0 && p.x < 0); };
-        std::sort(points.begin(), points.end(), [&](Point p, Point q) {
-            return lower(p) != lower(q) ? lower(q) : cross(p, q) > 0;
-        });
+        std::sort(points.begin(), points.end(),
+                  [&](Point p, Point q) { return lower(p) != lower(q) ? lower(q) : cross(p, q) > 0; });
         Contour c;
         for (const Point p : points)
             if (c.empty() || lower(c.back()) != lower(p) || cross(c.back(), p) != 0) c.push_back(p);
@@ -61,10 +60,16 @@ Pair internal_pair(Random& g) {
     const Contour below = pick(g, 0, 1) ? square(half * scale) : star(g, half, grain);
     Region above;
     switch (pick(g, 0, 3)) {
-        case 0: break;  // a full roof
-        case 1: above = {star(g, half, grain)}; break;
-        case 2: above = {square(pick(g, 1, half) * scale)}; break;
-        default: above = {square(15 * scale)};  // tracks only
+        case 0:
+            break;  // a full roof
+        case 1:
+            above = {star(g, half, grain)};
+            break;
+        case 2:
+            above = {square(pick(g, 1, half) * scale)};
+            break;
+        default:
+            above = {square(15 * scale)};  // tracks only
     }
     const auto tracks = [&](int n) {
         std::vector<Segment> list;
@@ -74,7 +79,8 @@ Pair internal_pair(Random& g) {
         }
         return list;
     };
-    std::vector<Segment> lower = tracks(static_cast<int>(pick(g, 0, 5))), upper = tracks(static_cast<int>(pick(g, 0, 2)));
+    std::vector<Segment> lower = tracks(static_cast<int>(pick(g, 0, 5))),
+                         upper = tracks(static_cast<int>(pick(g, 0, 2)));
     // Some lower tracks become two that overlap, so that boundaries coincide.
     for (std::size_t i = 0, n = lower.size(); i < n; ++i)
         if (const Segment t = lower[i]; pick(g, 0, 4) == 0) {
@@ -121,15 +127,15 @@ void agree(const Pair& pair, bool internal, std::uint64_t seed, Tally& tally) {
                                  : brute_force_external(pair.upper, pair.lower, pair.how, pair.scale);
     const std::optional<Unsupported>& found = internal ? verdict.internal : verdict.external;
     tally.stages += verdict.stages;
-    ++(truth == Truth::supported ? tally.supported : truth == Truth::unsupported ? tally.unsupported
-                                                   : truth == Truth::tie         ? tally.ties
-                                                                                 : tally.open);
+    ++(truth == Truth::supported     ? tally.supported
+       : truth == Truth::unsupported ? tally.unsupported
+       : truth == Truth::tie         ? tally.ties
+                                     : tally.open);
     if (found) {
         CHECK(found->area_hi > 0);
         CHECK(found->area_lo <= found->area_hi);
         if (!found->witness_certified) ++tally.uncertified;
-        if (found->witness_certified)
-            CHECK(found->witness_distance >= to_mm(pair.how.support_radius) * (1 - 1e-12));
+        if (found->witness_certified) CHECK(found->witness_distance >= to_mm(pair.how.support_radius) * (1 - 1e-12));
     }
     if (truth == Truth::open) ++(found ? tally.open_unsupported : tally.open_supported);
     if (truth == Truth::unsupported) CHECK(found.has_value());
@@ -138,8 +144,8 @@ void agree(const Pair& pair, bool internal, std::uint64_t seed, Tally& tally) {
 
 void print(const char* what, const Tally& t) {
     std::cout << what << ": supported " << t.supported << ", unsupported " << t.unsupported << ", ties " << t.ties
-              << ", left open by the brute force " << t.open << " (supported " << t.open_supported << ", unsupported with witness "
-              << t.open_unsupported << "), witness not certified " << t.uncertified
+              << ", left open by the brute force " << t.open << " (supported " << t.open_supported
+              << ", unsupported with witness " << t.open_unsupported << "), witness not certified " << t.uncertified
               << "; decided by intervals " << t.stages.interval << ", rationals " << t.stages.rational
               << ", algebraic numbers " << t.stages.algebraic << "\n";
 }

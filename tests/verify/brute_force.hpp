@@ -1,5 +1,6 @@
-// Equation (2) by branch and bound on distances, in doubles: slow, and independent of everything in src/ribvault/verify.
-// M lies in K = {f <= 0} exactly when max f over M <= 0, and f and the distance to M are Lipschitz with constant 1.
+// Equation (2) by branch and bound on distances, in doubles: slow, and independent of everything in
+// src/ribvault/verify. M lies in K = {f <= 0} exactly when max f over M <= 0, and f and the distance to M are Lipschitz
+// with constant 1.
 #pragma once
 
 #include "layers.hpp"

@@ -78,7 +78,9 @@ TEST_CASE("slanted tracks that overlap on a line of irrational direction hold up
 TEST_CASE("an edge of material exactly on a slanted offset line is supported") {
     // Direction (3, 4), offset 40000 = 5 * 8000: the offset line passes through lattice points.
     const Segment track{{-300000, -400000}, {300000, 400000}};
-    const Contour strip{{-24000 + 32000, -32000 - 24000}, {24000 + 32000, 32000 - 24000}, {24000 - 32000, 32000 + 24000},
+    const Contour strip{{-24000 + 32000, -32000 - 24000},
+                        {24000 + 32000, 32000 - 24000},
+                        {24000 - 32000, 32000 + 24000},
                         {-24000 - 32000, -32000 + 24000}};
     Contour wider = strip;
     for (int i : {0, 1}) wider[static_cast<std::size_t>(i)].x += 1;
@@ -108,7 +110,9 @@ TEST_CASE("tangent discs leave a cusp, however small the material between them")
 TEST_CASE("parallel tracks whose strips touch on a line cover it, and leave a cusp at their ends") {
     const std::vector<Segment> two{{{-200000, 40000}, {200000, 40000}}, {{200000, -40000}, {-200000, -40000}}};
     supported(verify(island(30000), below(two), how));
-    const auto at_end = [](Unit to) { return layer({frame}, {square(wide), reversed(rectangle(150000, -50, to, 50))}); };
+    const auto at_end = [](Unit to) {
+        return layer({frame}, {square(wide), reversed(rectangle(150000, -50, to, 50))});
+    };
     supported(verify(at_end(200000), below(two), how));
     unsupported(verify(at_end(200001), below(two), how));
     const std::vector<Segment> apart{{{-200000, 40001}, {200000, 40001}}, {{200000, -40000}, {-200000, -40000}}};
@@ -119,7 +123,8 @@ TEST_CASE("coincident, reversed and overlapping tracks count once") {
     const std::vector<Segment> tracks{{{0, 0}, {100000, 30000}}, {{100000, 30000}, {0, 0}}, {{0, 0}, {100000, 30000}}};
     supported(verify(only_tracks(tracks), below(tracks), how));
     supported(verify(only_tracks(tracks), below({tracks[1]}), how));
-    unsupported(verify(only_tracks(tracks), below({{{0, 0}, {99998, 30000}}, {{0, 0}, {50000, 15000}}}), settings(rho, 1)), 1);
+    unsupported(
+        verify(only_tracks(tracks), below({{{0, 0}, {99998, 30000}}, {{0, 0}, {50000, 15000}}}), settings(rho, 1)), 1);
 }
 
 TEST_CASE("a track of length zero is a disc") {
@@ -198,8 +203,10 @@ TEST_CASE("an external overhang is named with its area and does not refute the l
     CHECK(v.external->witness_certified);
     CHECK(v.external->witness_distance >= 0.2 - 1e-12);
     CHECK(v.external->witness[0] > 5.2);
-    CHECK(!verify(layer({square(520000)}, {square(400000)}), layer({square(500000)}, {}), settings(rho, 28285)).external);
-    CHECK(verify(layer({square(520000)}, {square(400000)}), layer({square(500000)}, {}), settings(rho, 28284)).external);
+    CHECK(
+        !verify(layer({square(520000)}, {square(400000)}), layer({square(500000)}, {}), settings(rho, 28285)).external);
+    CHECK(
+        verify(layer({square(520000)}, {square(400000)}), layer({square(500000)}, {}), settings(rho, 28284)).external);
 }
 
 TEST_CASE("what the cavity above leaves empty is no overhang") {
@@ -233,10 +240,10 @@ TEST_CASE("cavity contours may touch, and an edge between two of them is no wall
 TEST_CASE("a cavity that is no cavity of its slice is refused with the place") {
     const Layer good = layer({frame}, {square(wide)});
     const Layer ring{layer({frame, reversed(square(200000))}, {square(wide)})};
-    for (const Layer& bad : {layer({frame}, {square(1600000)}), layer({frame}, {square(1500000)}),
-                             layer({frame}, {rectangle(0, 0, 1500001, 100)}),
-                             layer({frame}, {rectangle(2000000, 0, 2100000, 100000)}), ring,
-                             layer({frame}, {{{0, 0}, {100000, 100001}, {100000, 0}, {0, 100000}}})}) {
+    for (const Layer& bad :
+         {layer({frame}, {square(1600000)}), layer({frame}, {square(1500000)}),
+          layer({frame}, {rectangle(0, 0, 1500001, 100)}), layer({frame}, {rectangle(2000000, 0, 2100000, 100000)}),
+          ring, layer({frame}, {{{0, 0}, {100000, 100001}, {100000, 0}, {0, 100000}}})}) {
         for (const LayerVerdict& v : {verify(bad, good, how), verify(good, bad, how)}) {
             CHECK(!v.supported);
             CHECK(v.malformed.find("layer ") == 0);

@@ -36,7 +36,9 @@ struct Scene {
         edges = {0, 1, 2, 3};
     }
     Surroundings near() const { return {sites, edges, {}, 17, 5, 1}; }
-    Curve line(int site, int side) const { return {true, problem.sites[site].a, problem.sites[site].b, side, reach, false}; }
+    Curve line(int site, int side) const {
+        return {true, problem.sites[site].a, problem.sites[site].b, side, reach, false};
+    }
     Curve circle(int site) const { return {false, problem.sites[site].a, problem.sites[site].a, 0, reach, false}; }
     Located at(const Curve& c1, const Curve& c2, int root) const {
         return located(problem, {Candidate::Kind::meeting, -1, 0, c1, c2, root});
@@ -69,8 +71,8 @@ TEST_CASE("which stage decides at the meeting point of two tracks' boundaries") 
         CHECK(v.stage == verify::Stage::interval);
     }
     SECTION("lines through one rational point that is no double: rationals") {
-        // Directions (3, 4) and (-5, 12): rational normals, and a meeting point with a denominator of 56. The third track
-        // overlaps the first.
+        // Directions (3, 4) and (-5, 12): rational normals, and a meeting point with a denominator of 56. The third
+        // track overlaps the first.
         const Segment first{{0, 0}, {300000, 400000}}, second{{1, 0}, {-499999, 1200000}};
         const Scene s({first, second, {{30000, 40000}, {330000, 440000}}});
         Located v = s.at(s.line(0, 1), s.line(1, -1), 0);
@@ -86,9 +88,14 @@ TEST_CASE("which stage decides at the meeting point of two tracks' boundaries") 
 
 TEST_CASE("tangent curves meet once, separate ones never, and concentric or parallel ones have no meeting point") {
     const CGAL::Protect_FPU_rounding<true> upward;
-    const Scene s({{{0, 0}, {0, 0}}, {{80000, 0}, {80000, 0}}, {{80001, 0}, {80001, 0}}, {{79999, 0}, {79999, 0}},
-                   {{-500000, 80000}, {500000, 80000}}, {{-500000, -80000}, {500000, -80000}},
-                   {{100000, 100000}, {200000, 200000}}, {{300000, 300000}, {400000, 400000}}});
+    const Scene s({{{0, 0}, {0, 0}},
+                   {{80000, 0}, {80000, 0}},
+                   {{80001, 0}, {80001, 0}},
+                   {{79999, 0}, {79999, 0}},
+                   {{-500000, 80000}, {500000, 80000}},
+                   {{-500000, -80000}, {500000, -80000}},
+                   {{100000, 100000}, {200000, 200000}},
+                   {{300000, 300000}, {400000, 400000}}});
     verify::Stage stage = verify::Stage::interval;
     const auto meet = [&](const Curve& a, const Curve& b) { return meeting_points(s.problem, a, b, stage); };
     CHECK(meet(s.circle(0), s.circle(1)) == 1);
@@ -100,8 +107,8 @@ TEST_CASE("tangent curves meet once, separate ones never, and concentric or para
     CHECK(meet(s.line(4, -1), s.line(5, 1)) == 0);
     CHECK(meet(s.line(4, -1), s.line(6, 1)) == 1);
     CHECK(stage == verify::Stage::interval);
-    // The second slanted track's circle touches the first one's line: algebraic, as the line's offset is irrational, but
-    // the difference of the two radii is 0 and settles it.
+    // The second slanted track's circle touches the first one's line: algebraic, as the line's offset is irrational,
+    // but the difference of the two radii is 0 and settles it.
     CHECK(meet(s.circle(7), s.line(6, 1)) == 1);
     CHECK(stage == verify::Stage::interval);
 }
@@ -119,9 +126,8 @@ TEST_CASE("all stages that answer agree on thousands of near-degenerate points",
         if (const Point d = tracks[0].b - tracks[0].a; pick(0, 1)) tracks[2] = {tracks[0].a - d, tracks[0].b + d};
         const Scene s(tracks);
         const auto curve = [&](int site) {
-            return s.problem.sites[site].a == s.problem.sites[site].b || pick(0, 1)
-                       ? s.circle(site)
-                       : s.line(site, pick(0, 1) ? 1 : -1);
+            return s.problem.sites[site].a == s.problem.sites[site].b || pick(0, 1) ? s.circle(site)
+                                                                                    : s.line(site, pick(0, 1) ? 1 : -1);
         };
         const Curve c1 = curve(0), c2 = curve(1);
         verify::Stage stage = verify::Stage::interval;

@@ -24,7 +24,8 @@ Line<NT> line_of(const CoverProblem& problem, const Curve& c) {
 // Two circles about c1, c2 = c1 + D: q = c1 + (A D +- sqrt(disc) rot90 D) / D^2 with A = (D^2 + R1^2 - R2^2) / 2 and
 // disc = R1^2 D^2 - A^2. A circle about c and a line: with x = cross(d, p - c), e = x + side R2 L and L^2 = d^2,
 // q = c + (e rot90 d +- sqrt(disc) d) / L^2 and disc = R^2 L^2 - e^2 = ((R - side R2) L - x) ((R + side R2) L + x); the
-// product loses no digits where K's own curves nearly touch (R = R2). Both are centre + (along u +- sqrt(disc) w) / norm.
+// product loses no digits where K's own curves nearly touch (R = R2). Both are centre + (along u +- sqrt(disc) w) /
+// norm.
 template <class NT>
 struct Meeting {
     Vec<NT> centre, u, w;

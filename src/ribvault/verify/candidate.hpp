@@ -56,8 +56,9 @@ Located located(const CoverProblem& problem, const Candidate& candidate);
 /// Makes the enclosure as tight as doubles allow, by exact evaluation; raises the stage.
 void refine(Located& v);
 
-/// How two curves meet: 0, 1 (tangent circles or lines, or two crossing lines) or 2 points; concentric circles and parallel
-/// lines: 0 (what happens along a shared piece is seen at its ends, which are other candidates). Exact; raises `stage`.
+/// How two curves meet: 0, 1 (tangent circles or lines, or two crossing lines) or 2 points; concentric circles and
+/// parallel lines: 0 (what happens along a shared piece is seen at its ends, which are other candidates). Exact; raises
+/// `stage`.
 int meeting_points(const CoverProblem& problem, const Curve& c1, const Curve& c2, Stage& stage);
 
 /// The rational value if the candidate has one, computed once.

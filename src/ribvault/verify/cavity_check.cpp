@@ -7,7 +7,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "ribvault/verify/local_cover.hpp"
+#include "ribvault/verify/point_signs.hpp"
 
 namespace ribvault::verify {
 
@@ -57,7 +57,8 @@ std::vector<Segment> edges_of(const Region& region) {
     return edges;
 }
 
-// Every edge cut where another one touches it, in the order given. Fills `crossing` when two cross at inner points of both.
+// Every edge cut where another one touches it, in the order given. Fills `crossing` when two cross at inner points of
+// both.
 std::vector<Segment> cut_at_contacts(const std::vector<Segment>& edges, std::string& crossing) {
     std::vector<EdgeBox> boxes;
     for (std::size_t i = 0; i < edges.size(); ++i) boxes.push_back(box_of(edges[i], static_cast<int>(i)));
@@ -94,8 +95,8 @@ struct Wall {
     int jump;
 };
 
-// Winding number on the right of walls[of], which meets the others at end points only: a ray from its middle to +x, with
-// the axes turned for a horizontal edge so that the ray leaves it. A vertex on the ray counts as above it.
+// Winding number on the right of walls[of], which meets the others at end points only: a ray from its middle to +x,
+// with the axes turned for a horizontal edge so that the ray leaves it. A vertex on the ray counts as above it.
 int winding_right(const std::vector<Wall>& walls, std::size_t of) {
     const bool turn = walls[of].edge.a.y == walls[of].edge.b.y;
     const auto seen = [turn](Point p) { return turn ? Point{-p.y, p.x} : p; };

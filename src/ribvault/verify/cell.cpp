@@ -26,7 +26,8 @@ double squared_distance(const Track& t, double x, double y) {
 }
 
 // `centre_distance`: from the cell's centre to the stadium's segment.
-bool stadium_contains(const Subdivision& s, const Track& track, double radius, const Cell& cell, double centre_distance) {
+bool stadium_contains(const Subdivision& s, const Track& track, double radius, const Cell& cell,
+                      double centre_distance) {
     const double reach = radius - s.margin;
     if (centre_distance + cell.half * half_diagonal <= reach) return true;
     if (centre_distance + cell.half > reach || reach < 0) return false;
@@ -36,8 +37,8 @@ bool stadium_contains(const Subdivision& s, const Track& track, double radius, c
     return true;
 }
 
-// Sign of cross(d, v), or 0 when it may be wrong. Each coordinate difference is off by at most 2^-15 margin (its vertices by
-// 2^-50 c, margin being 2^-34 c), and the products and their difference by 2^-51 of their sizes.
+// Sign of cross(d, v), or 0 when it may be wrong. Each coordinate difference is off by at most 2^-15 margin (its
+// vertices by 2^-50 c, margin being 2^-34 c), and the products and their difference by 2^-51 of their sizes.
 int certain_turn(const Subdivision& s, double dx, double dy, double vx, double vy) {
     const double p = dx * vy, q = dy * vx;
     const double error = 0x1p-14 * s.margin * (std::abs(dx) + std::abs(dy) + std::abs(vx) + std::abs(vy)) +
@@ -48,7 +49,8 @@ int certain_side(const Subdivision& s, const Track& t, double x, double y) {
     return certain_turn(s, t.dx, t.dy, x - t.ax, y - t.ay);
 }
 
-bool certainly_off_lines(const Subdivision& s, const std::vector<Track>& tracks, const Indices& which, double x, double y) {
+bool certainly_off_lines(const Subdivision& s, const std::vector<Track>& tracks, const Indices& which, double x,
+                         double y) {
     return std::all_of(which.begin(), which.end(), [&](int i) { return certain_side(s, tracks[i], x, y) != 0; });
 }
 
@@ -81,7 +83,8 @@ int path_crossings(const Subdivision& s, const std::vector<Track>& tracks, const
 // The centre is a corner of all quarters, which inherit it, up to a few margins by which it may have to leave a line.
 void refer_to_centre(const Subdivision& s, Cell& cell) {
     double x = cell.x, y = cell.y, u = 0.37, w = 0.59;
-    while (!certainly_off_lines(s, s.material, cell.edges, x, y) || !certainly_off_lines(s, s.sites, cell.region, x, y)) {
+    while (!certainly_off_lines(s, s.material, cell.edges, x, y) ||
+           !certainly_off_lines(s, s.sites, cell.region, x, y)) {
         x = cell.x + (6 * u - 3) * s.margin, y = cell.y + (6 * w - 3) * s.margin;
         u = std::fmod(u + 0.6180339887, 1.0), w = std::fmod(w + 0.7548776662, 1.0);
     }
@@ -90,9 +93,10 @@ void refer_to_centre(const Subdivision& s, Cell& cell) {
     cell.ref_x = x, cell.ref_y = y;
 }
 
-// With coordinates and radii below c, a vertex's place is off by at most 2^-50 c, and a point at the clamped parameter t is
-// on the segment up to 2^-50 c whatever the error of t; an error of t moves the distance in second order only. So every
-// distance is right within 2^-46 c. 2^-34 c is far above that, and wide enough for the intervals of most candidates.
+// With coordinates and radii below c, a vertex's place is off by at most 2^-50 c, and a point at the clamped parameter
+// t is on the segment up to 2^-50 c whatever the error of t; an error of t moves the distance in second order only. So
+// every distance is right within 2^-46 c. 2^-34 c is far above that, and wide enough for the intervals of most
+// candidates.
 Subdivision subdivision(const CoverProblem& problem) {
     double c = 1;
     for (const Vertex& v : problem.vertices) c = std::max({c, std::abs(v.cx), std::abs(v.cy)});

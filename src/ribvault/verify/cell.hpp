@@ -10,7 +10,8 @@ namespace ribvault::verify {
 using Indices = boost::container::small_vector<int, 12>;
 inline std::span<const int> view(const Indices& list) { return {list.data(), list.size()}; }
 
-/// Centre and half side, in lattice units. The lists hold at least all that comes within Subdivision::margin of the square.
+/// Centre and half side, in lattice units. The lists hold at least all that comes within Subdivision::margin of the
+/// square.
 struct Cell {
     double x = 0, y = 0, half = 0;
     Indices sites, edges, pieces, region;

@@ -21,8 +21,8 @@ struct Edge {
 
 /// M = the region whose oriented boundary is `material` (material on the left) united with `pieces`.
 /// K = `sites` united with the closed region bounded by the oriented edges `region`: where their winding number is not
-/// zero, or, with `region_outside`, where it is. sites[i] for i < region.size() is the stadium around region[i], and every
-/// radius is positive, so that K's boundary consists of pieces of the sites' boundaries only.
+/// zero, or, with `region_outside`, where it is. sites[i] for i < region.size() is the stadium around region[i], and
+/// every radius is positive, so that K's boundary consists of pieces of the sites' boundaries only.
 struct CoverProblem {
     std::span<const Vertex> vertices;
     std::vector<Edge> material;

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "ribvault/verify/cell.hpp"
+#include "ribvault/verify/local_cover.hpp"
+#include "ribvault/verify/point_signs.hpp"
 
 namespace ribvault::verify {
 
@@ -35,7 +37,8 @@ struct Leaf {
     }
 
     // The two curves of a stadium parallel to its segment, the circles about its ends: those that meet the cell.
-    void add_curves(const Stadium& stadium, bool from_material, boost::container::small_vector<Curve, 24>& curves) const {
+    void add_curves(const Stadium& stadium, bool from_material,
+                    boost::container::small_vector<Curve, 24>& curves) const {
         const auto add_circle = [&](int centre) {
             if (!circle_meets(centre, stadium.radius)) return;
             for (const Curve& c : curves)
@@ -48,7 +51,8 @@ struct Leaf {
         const Vertex &p = s.problem->vertices[stadium.a], &q = s.problem->vertices[stadium.b];
         const double dx = q.cx - p.cx, dy = q.cy - p.cy, length = std::sqrt(dx * dx + dy * dy);
         const double vx = cell.x - p.cx, vy = cell.y - p.cy;
-        // The ends' error of 2^-50 c turns the line by 2^-50 c / length; too short a segment for this distance: keep its lines.
+        // The ends' error of 2^-50 c turns the line by 2^-50 c / length; too short a segment for this distance: keep
+        // its lines.
         const bool tiny = 512 * length <= std::abs(vx) + std::abs(vy);
         const double along = tiny ? 0 : (vx * dx + vy * dy) / length;
         const double above = tiny ? 0 : (dx * vy - dy * vx) / length;
@@ -127,7 +131,8 @@ struct Leaf {
         boost::container::small_vector<Curve, 24> below, above;
         for (const int i : cell.sites) add_curves(problem.sites[i], false, below);
         for (const int i : cell.pieces) add_curves(problem.pieces[i], true, above);
-        for (const int e : cell.edges) above.push_back({true, problem.material[e].a, problem.material[e].b, 0, 0, true});
+        for (const int e : cell.edges)
+            above.push_back({true, problem.material[e].a, problem.material[e].b, 0, 0, true});
         for (std::size_t i = 0; i < below.size(); ++i) {
             for (const Curve& c : above)
                 if (refutes_meeting(below[i], c, found)) return true;
@@ -144,8 +149,7 @@ std::optional<Uncovered> find_uncovered(const CoverProblem& problem, const Windo
     if (window.lo_x > window.hi_x || window.lo_y > window.hi_y) return std::nullopt;
     const Subdivision s = subdivision(problem);
     double smallest = 0;
-    for (const Stadium& site : problem.sites)
-        smallest = smallest == 0 ? site.radius : std::min(smallest, site.radius);
+    for (const Stadium& site : problem.sites) smallest = smallest == 0 ? site.radius : std::min(smallest, site.radius);
     std::vector<Cell> open{root_cell(s, window)};
     Cell child;
     while (!open.empty()) {

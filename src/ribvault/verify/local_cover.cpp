@@ -3,6 +3,8 @@
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 
+#include "ribvault/verify/point_signs.hpp"
+
 namespace ribvault::verify {
 
 namespace {
@@ -14,63 +16,9 @@ std::span<const T> view(const Few<T>& list) {
     return {list.data(), list.size()};
 }
 
-bool is_circle(const Curve& c, int centre, double radius) { return !c.line && c.a == centre && c.radius == radius; }
-bool is_line(const Curve& c, int a, int b, double radius) {
-    return c.line && ((c.a == a && c.b == b) || (c.a == b && c.b == a)) && c.radius == radius;
-}
-bool known_on_circle(const Candidate& c, int centre, double radius) {
-    if (c.kind == Candidate::Kind::leftmost) return c.vertex == centre && c.radius == radius;
-    return c.kind == Candidate::Kind::meeting &&
-           (is_circle(c.first, centre, radius) || is_circle(c.second, centre, radius));
-}
-bool known_on_lines(const Candidate& c, int a, int b, double radius) {
-    return c.kind == Candidate::Kind::meeting && (is_line(c.first, a, b, radius) || is_line(c.second, a, b, radius));
-}
-
 template <class NT>
 Vec<NT> at(const CoverProblem& problem, int vertex) {
     return exact_point<NT>(problem.vertices[vertex]);
-}
-
-// Sign of |v - centre| - radius.
-int disc_sign(Located& v, int centre, double radius, Stage last) {
-    if (known_on_circle(v.candidate, centre, radius)) return 0;
-    const CoverProblem& problem = *v.problem;
-    return sign_at(
-        v,
-        [&]<class NT>(const Vec<NT>& p) -> NT {
-            const Vec<NT> d = p - at<NT>(problem, centre);
-            const NT r = number<NT>(radius);
-            return NT(dot(d, d) - r * r);
-        },
-        last);
-}
-
-// Sign of (v - a) . (b - a): 0 on the normal line through a.
-int ahead_sign(Located& v, int a, int b, Stage last) {
-    if (v.candidate.kind == Candidate::Kind::vertex && v.candidate.vertex == a) return 0;
-    const CoverProblem& problem = *v.problem;
-    return sign_at(
-        v,
-        [&]<class NT>(const Vec<NT>& p) -> NT {
-            const Vec<NT> pa = at<NT>(problem, a);
-            return dot(Vec<NT>(p - pa), Vec<NT>(at<NT>(problem, b) - pa));
-        },
-        last);
-}
-
-// Sign of the distance of v from the line ab minus radius.
-int strip_sign(Located& v, int a, int b, double radius, Stage last) {
-    if (known_on_lines(v.candidate, a, b, radius)) return 0;
-    const CoverProblem& problem = *v.problem;
-    return sign_at(
-        v,
-        [&]<class NT>(const Vec<NT>& p) -> NT {
-            const Vec<NT> pa = at<NT>(problem, a), d = at<NT>(problem, b) - pa;
-            const NT c = cross(d, Vec<NT>(p - pa)), r = number<NT>(radius);
-            return NT(c * c - r * r * dot(d, d));
-        },
-        last);
 }
 
 /// A direction at v: rot90^turns of (vertex b - vertex a), or of (vertex a - v) when b < 0.
@@ -86,8 +34,8 @@ Vec<NT> base_of(const CoverProblem& problem, const Direction& d, const Vec<NT>& 
     return d.b < 0 ? Vec<NT>(a - p) : Vec<NT>(at<NT>(problem, d.b) - a);
 }
 
-// conj(d1) d2 as complex numbers is dot + i cross, and rot90 is multiplication by i, so with k = turns2 - turns1 the pair
-// (dot, cross) of the directions is i^k times the pair of their bases.
+// conj(d1) d2 as complex numbers is dot + i cross, and rot90 is multiplication by i, so with k = turns2 - turns1 the
+// pair (dot, cross) of the directions is i^k times the pair of their bases.
 int base_product_sign(Located& v, const Direction& d, const Direction& e, bool want_cross) {
     if (d.a == e.a && d.b == e.b) return want_cross ? 0 : 1;
     if (d.a == e.b && d.b == e.a) return want_cross ? 0 : -1;
@@ -102,10 +50,14 @@ int base_product_sign(Located& v, const Direction& d, const Direction& e, bool w
 }
 int dot_sign(Located& v, const Direction& d, const Direction& e) {
     switch ((e.turns - d.turns) & 3) {
-        case 0: return base_product_sign(v, d, e, false);
-        case 1: return -base_product_sign(v, d, e, true);
-        case 2: return -base_product_sign(v, d, e, false);
-        default: return base_product_sign(v, d, e, true);
+        case 0:
+            return base_product_sign(v, d, e, false);
+        case 1:
+            return -base_product_sign(v, d, e, true);
+        case 2:
+            return -base_product_sign(v, d, e, false);
+        default:
+            return base_product_sign(v, d, e, true);
     }
 }
 int cross_sign(Located& v, const Direction& d, const Direction& e) { return dot_sign(v, turned(d, 1), e); }
@@ -155,7 +107,7 @@ bool straight_along(Located& v, const LocalSite& site, const Direction& d) {
 
 struct Extent {
     bool left = false, right = false;  ///< M has points on that side of the ray, however close to it
-    double radius = 0;                 ///< curvature radius of M's boundary along the ray when only one side is M; 0 straight
+    double radius = 0;  ///< curvature radius of M's boundary along the ray when only one side is M; 0 straight
 };
 
 // How M lies along direction d, from its boundary rays (none: v is an inner point of M).
@@ -249,96 +201,6 @@ bool cone_covered(Located& v, std::span<const Ray> rays, std::span<const LocalSi
 
 }  // namespace
 
-int orientation_sign(Located& v, int a, int b, Stage last) {
-    const Candidate& c = v.candidate;
-    if (c.kind == Candidate::Kind::vertex && (c.vertex == a || c.vertex == b)) return 0;
-    if (known_on_lines(c, a, b, 0)) return 0;
-    const CoverProblem& problem = *v.problem;
-    return sign_at(
-        v,
-        [&]<class NT>(const Vec<NT>& p) -> NT {
-            const Vec<NT> pa = at<NT>(problem, a);
-            return cross(Vec<NT>(at<NT>(problem, b) - pa), Vec<NT>(p - pa));
-        },
-        last);
-}
-
-Side side_of_stadium(Located& v, const Stadium& s, Stage last) {
-    const auto side = [](int sign) {
-        return sign == unknown ? Side::unknown : sign < 0 ? Side::inside : sign == 0 ? Side::on : Side::outside;
-    };
-    if (s.a == s.b) return side(disc_sign(v, s.a, s.radius, last));
-    int after_a = ahead_sign(v, s.a, s.b, Stage::interval);
-    if (after_a < 0) return side(disc_sign(v, s.a, s.radius, last));
-    int before_b = ahead_sign(v, s.b, s.a, Stage::interval);
-    if (before_b < 0) return side(disc_sign(v, s.b, s.radius, last));
-    if (after_a == unknown || before_b == unknown) {
-        // Near an end: settled when strip and discs agree, else the place along the segment is needed exactly.
-        if (strip_sign(v, s.a, s.b, s.radius, Stage::interval) == 1) return Side::outside;
-        if (disc_sign(v, s.a, s.radius, Stage::interval) == -1 || disc_sign(v, s.b, s.radius, Stage::interval) == -1)
-            return Side::inside;
-        if (last == Stage::interval) return Side::unknown;
-        after_a = ahead_sign(v, s.a, s.b, last);
-        if (after_a <= 0) return side(disc_sign(v, s.a, s.radius, last));
-        before_b = ahead_sign(v, s.b, s.a, last);
-        if (before_b <= 0) return side(disc_sign(v, s.b, s.radius, last));
-    }
-    return side(strip_sign(v, s.a, s.b, s.radius, last));
-}
-
-Located double_point(const CoverProblem& problem, double x, double y) {
-    Located v;
-    v.problem = &problem;
-    v.candidate.vertex = -1;
-    v.x = Interval(x), v.y = Interval(y);
-    v.rational_tried = true;
-    v.rational = Vec<Rational>{Rational(x), Rational(y)};
-    return v;
-}
-
-namespace {
-
-int line_side(const CoverProblem& problem, const Edge& e, double x, double y) {
-    const Vec<Interval> a = at<Interval>(problem, e.a), b = at<Interval>(problem, e.b);
-    return sign_of(cross(Vec<Interval>(b - a), Vec<Interval>(Vec<Interval>{Interval(x), Interval(y)} - a)));
-}
-
-}  // namespace
-
-bool off_lines(const CoverProblem& problem, std::span<const Edge> all, std::span<const int> which, double x, double y) {
-    for (const int e : which)
-        if (const int side = line_side(problem, all[e], x, y); side == 0 || side == unknown) return false;
-    return true;
-}
-
-int crossings(std::span<const Edge> all, std::span<const int> which, double from_x, double from_y, Located& to) {
-    const CoverProblem& problem = *to.problem;
-    const Stage exact = Stage::algebraic;
-    // A vertex on the line through both points counts as left of it, for both edges that meet there.
-    const auto left_of_path = [&](int vertex) {
-        return sign_at(
-                   to,
-                   [&]<class NT>(const Vec<NT>& p) -> NT {
-                       const Vec<NT> f{number<NT>(from_x), number<NT>(from_y)};
-                       return cross(Vec<NT>(p - f), Vec<NT>(at<NT>(problem, vertex) - f));
-                   },
-                   exact) >= 0;
-    };
-    int winding = 0;
-    for (const int e : which) {
-        const int to_side = orientation_sign(to, all[e].a, all[e].b, exact);
-        int from_side = line_side(problem, all[e], from_x, from_y);
-        if (from_side == unknown) {
-            Located from = double_point(problem, from_x, from_y);
-            from_side = orientation_sign(from, all[e].a, all[e].b, exact);
-        }
-        if (to_side == from_side) continue;
-        if (left_of_path(all[e].a) == left_of_path(all[e].b)) continue;
-        winding += to_side > 0 ? 1 : -1;
-    }
-    return winding;
-}
-
 Local decide_locally(Located& v, const Surroundings& near, Vec<double>& hint) {
     const CoverProblem& problem = *v.problem;
     const Stage all = Stage::algebraic;
@@ -362,7 +224,8 @@ Local decide_locally(Located& v, const Surroundings& near, Vec<double>& hint) {
         if (after_a > 0) region_rays.push_back({{b, a, 0}, -1, 0});
     }
     if (region_rays.empty())
-        inner_point = near.winding + (near.edges.empty() ? 0 : crossings(problem.material, near.edges, near.x, near.y, v)) != 0;
+        inner_point =
+            near.winding + (near.edges.empty() ? 0 : crossings(problem.material, near.edges, near.x, near.y, v)) != 0;
     for (std::size_t i = 0; i < near.pieces.size() && !inner_point; ++i) {
         const Side side = side_of_stadium(v, problem.pieces[near.pieces[i]], all);
         if (side == Side::inside) inner_point = true;

@@ -37,9 +37,7 @@ Vec<Algebraic> exact_point<Algebraic>(const Vertex& v) {
     return {to_algebraic(q.x), to_algebraic(q.y)};
 }
 
-Interval root(const Interval& a) {
-    return CGAL::sqrt(a.inf() < 0 ? Interval(0, a.sup() < 0 ? 0 : a.sup()) : a);
-}
+Interval root(const Interval& a) { return CGAL::sqrt(a.inf() < 0 ? Interval(0, a.sup() < 0 ? 0 : a.sup()) : a); }
 
 Rational root(const Rational& a) {
     if (mpz_perfect_square_p(a.get_num_mpz_t()) == 0 || mpz_perfect_square_p(a.get_den_mpz_t()) == 0)

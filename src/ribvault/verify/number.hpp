@@ -21,9 +21,9 @@ inline constexpr int unknown = 2;
 
 /// An exact point of the input in lattice units: a lattice point, or a slice's vertex (mm) times units_per_mm.
 struct Vertex {
-    Interval x, y;                                 ///< certified enclosure
-    double cx = 0, cy = 0;                         ///< within 2^-50 of its magnitude
-    Point lattice;                                 ///< the point itself when `slice` is null
+    Interval x, y;          ///< certified enclosure
+    double cx = 0, cy = 0;  ///< within 2^-50 of its magnitude
+    Point lattice;          ///< the point itself when `slice` is null
     const ExactKernel::Point_2* slice = nullptr;
 };
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "ribvault/verify/local_cover.hpp"
+#include "ribvault/verify/cover_problem.hpp"
 #include "ribvault/verify/verdict.hpp"
 
 namespace ribvault::verify {
@@ -23,8 +23,8 @@ struct Uncovered {
 /// Under upward rounding; adds to `stages`.
 std::optional<Uncovered> find_uncovered(const CoverProblem& problem, const Window& window, StageCounts& stages);
 
-/// Certified enclosure of the area of M \ K, to about 1 % or as far as about `max_cells` cells go, and the largest cell found
-/// that lies in M \ K as a whole.
+/// Certified enclosure of the area of M \ K, to about 1 % or as far as about `max_cells` cells go, and the largest cell
+/// found that lies in M \ K as a whole.
 struct AreaEnclosure {
     double lo = 0, hi = 0;  ///< square lattice units
     double x = 0, y = 0;    ///< centre of the largest uncovered cell

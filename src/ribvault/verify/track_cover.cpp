@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "ribvault/verify/local_cover.hpp"
+#include "ribvault/verify/point_signs.hpp"
 
 namespace ribvault::verify {
 
@@ -27,7 +27,8 @@ std::vector<Edge> uncovered_tracks(std::span<const Vertex> vertices, std::span<c
     problem.vertices = vertices;
     std::vector<TrackBox> upper, lower;
     for (std::size_t i = 0; i < above.size(); ++i) upper.push_back(box_of(vertices, above[i], 0, static_cast<int>(i)));
-    for (std::size_t i = 0; i < below.size(); ++i) lower.push_back(box_of(vertices, below[i], rho, static_cast<int>(i)));
+    for (std::size_t i = 0; i < below.size(); ++i)
+        lower.push_back(box_of(vertices, below[i], rho, static_cast<int>(i)));
     std::vector<char> settled(above.size(), 0);
     const auto meet = [&](const TrackBox& u, const TrackBox& l) {
         if (settled[u.info()]) return;

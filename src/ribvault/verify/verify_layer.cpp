@@ -91,8 +91,9 @@ std::optional<Unsupported> decide(const CoverProblem& problem, const Window& win
 LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const LayerGeometry& lower,
                           const Settings& settings) {
     if (settings.support_radius <= 0 || settings.nozzle <= 0 || settings.nozzle % 2 != 0)
-        throw Error(ErrorKind::usage, "the verifier needs a positive support radius and a nozzle diameter of an even "
-                                      "number of lattice units; run Settings::check first");
+        throw Error(ErrorKind::usage,
+                    "the verifier needs a positive support radius and a nozzle diameter of an even "
+                    "number of lattice units; run Settings::check first");
     if (!upper.outline || !upper.cavity || !lower.outline || !lower.cavity)
         throw Error(ErrorKind::usage, "the verifier needs the outline and the cavity of both layers (layer " +
                                           std::to_string(upper_layer) + "); pass an empty cavity where there is none");

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "ribvault/verify/cell.hpp"
+#include "ribvault/verify/point_signs.hpp"
 
 namespace ribvault::verify {
 
@@ -40,7 +40,8 @@ int winding_at(const CoverProblem& problem, std::span<const Edge> boundary, Loca
 
 // A lower bound of the distance from v to the segment of a stadium.
 double distance_below(const CoverProblem& problem, const Stadium& s, const Located& v) {
-    const Vec<Interval> a = exact_point<Interval>(problem.vertices[s.a]), b = exact_point<Interval>(problem.vertices[s.b]);
+    const Vec<Interval> a = exact_point<Interval>(problem.vertices[s.a]),
+                        b = exact_point<Interval>(problem.vertices[s.b]);
     const Vec<Interval> d = b - a, w = Vec<Interval>{v.x, v.y} - a;
     const double to_a = root(dot(w, w)).inf();
     const double to_b = root(dot(Vec<Interval>(w - d), Vec<Interval>(w - d))).inf();
@@ -58,14 +59,16 @@ std::optional<std::array<double, 2>> search(const CoverProblem& problem, const U
         return std::nullopt;
     };
     if (const auto found = attempt(start.x, start.y)) return found;
-    // Along the direction in which M \ K leaves the point, which may be a cusp: ever smaller steps and turns, both sides.
+    // Along the direction in which M \ K leaves the point, which may be a cusp: ever smaller steps and turns, both
+    // sides.
     const double base = std::atan2(start.hint.y, start.hint.x);
     double step = reach;
     for (int k = 0; k < 44; ++k, step /= 2) {
         double turn = 2.9;
         for (int j = 0; j < 48; ++j, turn *= 0.6)
             for (const double t : {turn, -turn})
-                if (const auto found = attempt(start.x + step * std::cos(base + t), start.y + step * std::sin(base + t)))
+                if (const auto found =
+                        attempt(start.x + step * std::cos(base + t), start.y + step * std::sin(base + t)))
                     return found;
     }
     return std::nullopt;
@@ -88,7 +91,8 @@ bool in_uncovered(const CoverProblem& problem, const std::array<double, 2>& mm) 
     return !in_region(problem, winding_at(problem, problem.region, v));
 }
 
-Unsupported describe_uncovered(const CoverProblem& problem, const Window& window, const Uncovered& start, double reach) {
+Unsupported describe_uncovered(const CoverProblem& problem, const Window& window, const Uncovered& start,
+                               double reach) {
     Unsupported result;
     const AreaEnclosure area = enclose_area(problem, window, area_cells);
     const double unit_area = static_cast<double>(units_per_mm) * static_cast<double>(units_per_mm);
