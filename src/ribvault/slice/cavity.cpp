@@ -26,6 +26,34 @@ bool within_radius(const Segment& piece, const NearestSegment& tree, Unit radius
            within_radius({middle, piece.b}, tree, radius, depth + 1);
 }
 
+/// Is the sliver there only because `deep` is taken with the slack? The edges of C_{i+1} along it, not their roundings in
+/// the sliver, must be within ρ of the shell.
+bool is_tie(const Region& sliver, const NearestSegment& shell, const NearestSegment& edges_above, Unit radius) {
+    if (edges_above.empty()) return false;
+    for (const Segment& e : edges_of(sliver)) {
+        Box box;
+        box.add(e.a), box.add(e.b);
+        box.grow(static_cast<Unit>(rounding));
+        bool tie = within_radius(e, shell, radius);
+        edges_above.visit(box, [&](std::uint32_t k) { tie = tie && within_radius(edges_above.segments()[k], shell, radius); });
+        if (!tie) return false;
+    }
+    return true;
+}
+
+/// Do two edges of the region's contours cross (exactly decided)? Clipper's rounding can make them.
+bool contours_cross(const Region& region) {
+    const NearestSegment edges(edges_of(region));
+    bool cross = false;
+    for (std::uint32_t k = 0; !cross && k < edges.segments().size(); ++k) {
+        const Segment& e = edges.segments()[k];
+        Box box;
+        box.add(e.a), box.add(e.b);
+        edges.visit(box, [&](std::uint32_t j) { cross = cross || (j > k && segments_cross(e, edges.segments()[j])); });
+    }
+    return cross;
+}
+
 }  // namespace
 
 Region erode_slice(const Slice& slice, const Settings& s) {
@@ -38,6 +66,8 @@ Region intersect(const Region& a, const Region& b) {
 }
 
 Cavity make_cavity(int layer, Region region, const Settings& s) {
+    // Where contours cross by a rounding, a region pulled in by a few units has them apart.
+    for (double by = 2; contours_cross(region); by *= 2) region = offset(region, -by);
     Cavity cavity{layer, std::move(region), {}};
     if (!cavity.region.empty())
         cavity.deep = offset(cavity.region, -static_cast<double>(s.support_radius - s.slack), ClipperLib::jtRound,
@@ -54,17 +84,19 @@ Region overhang_over_cavity(const Cavity& cavity, const Slice& slice_above, cons
         hanging = intersect(hanging, offset(slice_above.rounded, rounding));
         if (hanging.empty()) return {};
     }
-    NearestSegment shell;
+    NearestSegment shell, edge_above;
     Region kept;
     for (Region& piece : connected_pieces(hanging)) {
-        bool tie = offset(piece, -0.6 * static_cast<double>(s.slack)).empty();
-        if (tie && shell.empty()) shell = NearestSegment(edges_of(cavity.region));
-        for (const Contour& contour : piece)
-            for (std::size_t i = 0; tie && i < contour.size(); ++i)
-                tie = within_radius({contour[i], contour[(i + 1) % contour.size()]}, shell, s.support_radius);
-        if (!tie) std::move(piece.begin(), piece.end(), std::back_inserter(kept));
+        const bool thin = offset(piece, -0.6 * static_cast<double>(s.slack)).empty();
+        if (thin && shell.empty()) {
+            shell = NearestSegment(edges_of(cavity.region));
+            edge_above = NearestSegment(edges_of(cavity_above));
+        }
+        if (!thin || !is_tie(piece, shell, edge_above, s.support_radius))
+            std::move(piece.begin(), piece.end(), std::back_inserter(kept));
     }
-    return kept;
+    // Grown by what rounding may have taken away.
+    return kept.empty() ? kept : offset(kept, rounding);
 }
 
 }  // namespace ribvault

@@ -23,6 +23,7 @@ struct Cavity {
     /// Points of C_i farther than about ρ - slack from the shell: a superset of what the shell does not hold up.
     Region deep;
 };
+/// Contours that cross by a rounding are pulled in by a few lattice units until they do not.
 Cavity make_cavity(int layer, Region region, const Settings& settings);
 
 /// Where layer i + 1's shell hangs over cavity i farther than ρ from B_i: a superset of (B_{i+1} ∩ C_i) \ (B_i)^{ρ↑} that

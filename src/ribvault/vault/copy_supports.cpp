@@ -81,9 +81,13 @@ private:
         // that runs along the shell within a rounding is a choice.
         for (std::size_t k = 0; k <= meetings_.size(); ++k) {
             const Point from = k == 0 ? s.a : meetings_[k - 1].on(s), to = k == meetings_.size() ? s.b : meetings_[k].on(s);
-            if (squared_length(to - from) <= root_tolerance * root_tolerance) continue;
             const Point middle{(from.x + to.x) / 2, (from.y + to.y) / 2};
-            if (boundary_.location.locate(middle) != Side::inside) continue;
+            if (squared_length(to - from) <= root_tolerance * root_tolerance ||
+                boundary_.location.locate(middle) != Side::inside) {
+                if (k == 0 && inside_[a]) anchor(a);
+                if (k == meetings_.size() && inside_[b]) anchor(b);
+                continue;
+            }
             const std::size_t va = k == 0 && inside_[a] ? vertex(a) : root(from, k <= 1 ? a : no_vertex);
             const std::size_t vb = k == meetings_.size() && inside_[b] ? vertex(b) : root(to, k + 1 >= meetings_.size() ? b : no_vertex);
             add(va, vb, index);
@@ -99,9 +103,17 @@ private:
         return add_vertex(SupportVertex{place_root(p, boundary_), true}, result_.forest);
     }
 
+    /// The wall between v and the shell is too short to keep: v itself becomes a root, so that its tree still has one.
+    void anchor(std::size_t v) {
+        const Point at = above_[v].at;
+        const Segment& edge = boundary_.edges.segments()[boundary_.edges.nearest(at).index];
+        result_.forest[vertex(v)] = {place_root(nearest_point(at, edge), boundary_), true};
+    }
+
     void prolong(std::size_t v) {
         SupportForest& forest = result_.forest;
         const std::size_t own = vertex(v);
+        if (forest[own].root) return;
         const Point at = above_[v].at;
         const NearestSegment::Hit hit = boundary_.edges.nearest(at);
         const double distance = std::sqrt(hit.distance.value());

@@ -45,13 +45,20 @@ int certain_turn(const Subdivision& s, double dx, double dy, double vx, double v
                          0x1p-50 * (std::abs(p) + std::abs(q) + s.margin * s.margin);
     return p - q > error ? 1 : p - q < -error ? -1 : 0;
 }
-int certain_side(const Subdivision& s, const Track& t, double x, double y) {
-    return certain_turn(s, t.dx, t.dy, x - t.ax, y - t.ay);
+// On which side of an edge's line (x, y) lies; exact when doubles do not tell, as for edges shorter than their rounding.
+int side_of_edge(const Subdivision& s, const Track& t, const Edge& e, double x, double y) {
+    const int turn = certain_turn(s, t.dx, t.dy, x - t.ax, y - t.ay);
+    if (turn != 0) return turn;
+    const Vec<Rational> a = exact_point<Rational>(s.problem->vertices[e.a]);
+    return sign_of(cross(Vec<Rational>(exact_point<Rational>(s.problem->vertices[e.b]) - a),
+                         Vec<Rational>(Vec<Rational>{Rational(x), Rational(y)} - a)));
 }
 
-bool certainly_off_lines(const Subdivision& s, const std::vector<Track>& tracks, const Indices& which, double x,
-                         double y) {
-    return std::all_of(which.begin(), which.end(), [&](int i) { return certain_side(s, tracks[i], x, y) != 0; });
+template <class Edges>
+bool off_edge_lines(const Subdivision& s, const std::vector<Track>& tracks, const Edges& edges, const Indices& which,
+                    double x, double y) {
+    return std::all_of(which.begin(), which.end(),
+                       [&](int i) { return side_of_edge(s, tracks[i], edges[i], x, y) != 0; });
 }
 
 // Whether the vertex is left of, or on, the line from (x, y) to (u, w); exact when doubles do not tell.
@@ -68,8 +75,8 @@ int path_crossings(const Subdivision& s, const std::vector<Track>& tracks, const
                    const Indices& which, const Cell& cell, double to_x, double to_y) {
     int winding = 0;
     for (const int i : which) {
-        const int side = certain_side(s, tracks[i], to_x, to_y);
-        if (side == certain_side(s, tracks[i], cell.ref_x, cell.ref_y)) continue;
+        const int side = side_of_edge(s, tracks[i], edges[i], to_x, to_y);
+        if (side == side_of_edge(s, tracks[i], edges[i], cell.ref_x, cell.ref_y)) continue;
         if (left_of_path(s, edges[i].a, cell.ref_x, cell.ref_y, to_x, to_y) ==
             left_of_path(s, edges[i].b, cell.ref_x, cell.ref_y, to_x, to_y))
             continue;
@@ -83,8 +90,8 @@ int path_crossings(const Subdivision& s, const std::vector<Track>& tracks, const
 // The centre is a corner of all quarters, which inherit it, up to a few margins by which it may have to leave a line.
 void refer_to_centre(const Subdivision& s, Cell& cell) {
     double x = cell.x, y = cell.y, u = 0.37, w = 0.59;
-    while (!certainly_off_lines(s, s.material, cell.edges, x, y) ||
-           !certainly_off_lines(s, s.sites, cell.region, x, y)) {
+    while (!off_edge_lines(s, s.material, s.problem->material, cell.edges, x, y) ||
+           !off_edge_lines(s, s.sites, s.problem->region, cell.region, x, y)) {
         x = cell.x + (6 * u - 3) * s.margin, y = cell.y + (6 * w - 3) * s.margin;
         u = std::fmod(u + 0.6180339887, 1.0), w = std::fmod(w + 0.7548776662, 1.0);
     }
@@ -133,8 +140,8 @@ Cell root_cell(const Subdivision& s, const Window& window) {
     do {
         step *= 1.0378;
         cell.ref_x = lo_x - step, cell.ref_y = lo_y - 0.7231 * step;
-    } while (!certainly_off_lines(s, s.material, cell.edges, cell.ref_x, cell.ref_y) ||
-             !certainly_off_lines(s, s.sites, cell.region, cell.ref_x, cell.ref_y));
+    } while (!off_edge_lines(s, s.material, s.problem->material, cell.edges, cell.ref_x, cell.ref_y) ||
+             !off_edge_lines(s, s.sites, s.problem->region, cell.region, cell.ref_x, cell.ref_y));
     return cell;
 }
 

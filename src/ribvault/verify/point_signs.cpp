@@ -117,8 +117,13 @@ Located double_point(const CoverProblem& problem, double x, double y) {
 }
 
 bool off_lines(const CoverProblem& problem, std::span<const Edge> all, std::span<const int> which, double x, double y) {
-    for (const int e : which)
-        if (const int side = line_side(problem, all[e], x, y); side == 0 || side == unknown) return false;
+    Located point = double_point(problem, x, y);
+    for (const int e : which) {
+        int side = line_side(problem, all[e], x, y);
+        // Edges may be too short for machine numbers to tell their sides from any distance.
+        if (side == unknown) side = orientation_sign(point, all[e].a, all[e].b, Stage::algebraic);
+        if (side == 0) return false;
+    }
     return true;
 }
 
