@@ -68,7 +68,8 @@ struct Component {
 
 /// Counts the edge's defects; `sides` are all that lie on one edge. True when the edge is balanced.
 bool count_edge(std::span<Side> sides, int near, MeshFacts& facts) {
-    const auto forward = static_cast<std::size_t>(std::count_if(sides.begin(), sides.end(), [](const Side& s) { return s.forward; }));
+    std::size_t forward = 0;
+    for (const Side& side : sides) forward += side.forward;
     const bool balanced = 2 * forward == sides.size();
     facts.boundary_edges += sides.size() == 1;
     facts.non_manifold_edges += sides.size() > 2;
@@ -131,8 +132,8 @@ std::size_t count_inverted(const std::vector<Component>& components) {
     for (const Component& c : components)
         if (c.volume > 0) hosts.push_back(&c);
     return static_cast<std::size_t>(std::count_if(components.begin(), components.end(), [&](const Component& c) {
-        return c.closed && c.volume < 0 &&
-               std::none_of(hosts.begin(), hosts.end(), [&](const Component* host) { return host->box.contains(c.box); });
+        const auto holds = [&](const Component* host) { return host->box.contains(c.box); };
+        return c.closed && c.volume < 0 && std::none_of(hosts.begin(), hosts.end(), holds);
     }));
 }
 

@@ -25,9 +25,10 @@ struct MeshFacts {
     bool closed() const { return unbalanced_edges == 0; }
 };
 
-/// Facts of the mesh as placed. A closed component of negative volume counts as a void when its bounding box lies inside
-/// that of a component of positive volume (a sufficient test would need the solids; for a report the boxes are enough).
-/// Sizes and volumes are doubles, good to about 1e-12 of the bounding box. O(n log n) with n the number of triangles.
+/// Facts of the mesh as placed. A closed component of negative volume counts as a void when its bounding box lies
+/// inside that of a component of positive volume (a sufficient test would need the solids; for a report the boxes are
+/// enough). Sizes and volumes are doubles, good to about 1e-12 of the bounding box. O(n log n) with n the number of
+/// triangles.
 MeshFacts examine(const Mesh& mesh, const Placement& placement);
 
 }  // namespace ribvault

@@ -64,7 +64,8 @@ Eigen::Matrix3d turn(const PlacementOptions& options) {
     const int up = options.up - 'x';
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
     for (int k = 0; k < 3; ++k) matrix(k, (k + up + 1) % 3) = 1;
-    for (int axis = 0; axis < 3; ++axis) matrix = rotation(axis, options.rotate_degrees[static_cast<std::size_t>(axis)]) * matrix;
+    for (int axis = 0; axis < 3; ++axis)
+        matrix = rotation(axis, options.rotate_degrees[static_cast<std::size_t>(axis)]) * matrix;
     return matrix;
 }
 
@@ -98,12 +99,12 @@ Placement orient(Mesh& mesh, const PlacementOptions& options) {
 
 void check_size(const Size& size, const Size& bed, const Rational& scale) {
     if (size[0] == 0 || size[1] == 0 || size[2] == 0)
-        throw Error(ErrorKind::does_not_fit, "the model is " + shown(size) + ": flat, so that no layer meets it; "
-                                             "export the solid's surface");
+        throw Error(ErrorKind::does_not_fit, "the model is " + shown(size) +
+                                                 ": flat, so that no layer meets it; export the solid's surface");
     if (size[0] > bed[0] || size[1] > bed[1] || size[2] > bed[2]) too_large(size, bed, scale);
     if (size[0] < 1 && size[1] < 1 && size[2] < 1)
-        throw Error(ErrorKind::does_not_fit, "the model is only " + shown(size) + "; if the file is in metres or inches "
-                                             "use --scale 1000 or --scale 25.4, otherwise --height");
+        throw Error(ErrorKind::does_not_fit, "the model is only " + shown(size) + "; if the file is in metres or "
+                                             "inches use --scale 1000 or --scale 25.4, otherwise --height");
 }
 
 /// Middle of the bed on the lattice.

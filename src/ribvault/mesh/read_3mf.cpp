@@ -73,7 +73,9 @@ private:
         return Archive(archive, &zip_discard);
     }
 
-    bool has(const std::string& name) const { return zip_name_locate(archive_.get(), name.c_str(), ZIP_FL_NOCASE) >= 0; }
+    bool has(const std::string& name) const {
+        return zip_name_locate(archive_.get(), name.c_str(), ZIP_FL_NOCASE) >= 0;
+    }
 
     std::string content(const std::string& name) const {
         const zip_int64_t index = zip_name_locate(archive_.get(), name.c_str(), ZIP_FL_NOCASE);
@@ -126,12 +128,14 @@ private:
         part.document = xml(name);
         part.root = part.document->document_element();
         if (local_name(part.root.name()) != "model") fail(name, "the part is no 3MF <model>", "export the mesh again");
-        static const std::map<std::string_view, double> units = {{"micron", 0.001}, {"millimeter", 1}, {"centimeter", 10},
-                                                                 {"inch", 25.4},    {"foot", 304.8},   {"meter", 1000}};
+        static const std::map<std::string_view, double> units = {{"micron", 0.001},  {"millimeter", 1},
+                                                                 {"centimeter", 10}, {"inch", 25.4},
+                                                                 {"foot", 304.8},    {"meter", 1000}};
         const pugi::xml_attribute unit = attribute(part.root, "unit");
         const auto scale = units.find(unit ? unit.value() : "millimeter");
         if (scale == units.end())
-            fail(name, std::string("the unit '") + unit.value() + "' is not one of 3MF's", "export the mesh in millimetres");
+            fail(name, std::string("the unit '") + unit.value() + "' is not one of 3MF's",
+                 "export the mesh in millimetres");
         part.mm_per_unit = scale->second;
         for (const pugi::xml_node& object : child(part.root, "resources").children())
             if (local_name(object.name()) == "object") part.objects.emplace(attribute(object, "id").value(), object);
@@ -152,7 +156,8 @@ private:
         const std::string_view type = attribute(object->second, "type").value();
         if (type == "support" || type == "solidsupport" || type == "surface" || type == "other") return;
         const Eigen::Affine3d whole = outer * transform(name, attribute(reference, "transform").value());
-        if (const pugi::xml_node mesh = child(object->second, "mesh")) return add(name, id, mesh, whole, from.mm_per_unit);
+        if (const pugi::xml_node mesh = child(object->second, "mesh"))
+            return add(name, id, mesh, whole, from.mm_per_unit);
         for (const pugi::xml_node& component : child(object->second, "components").children())
             if (local_name(component.name()) == "component") place(name, component, whole, depth + 1);
     }
@@ -165,15 +170,16 @@ private:
             text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
             const std::size_t end = std::min(text.find_first_of(" \t\r\n"), text.size());
             const auto value = parse_double(text.substr(0, end));
-            if (!value || !std::isfinite(*value)) fail(name, "a transform is not twelve numbers", "export the mesh again");
+            if (!value || !std::isfinite(*value))
+                fail(name, "a transform is not twelve numbers", "export the mesh again");
             result(k % 3, k / 3) = *value;
             text.remove_prefix(end);
         }
         return result;
     }
 
-    void add(const std::string& name, const std::string& id, const pugi::xml_node& mesh, const Eigen::Affine3d& transform,
-             double mm_per_unit) {
+    void add(const std::string& name, const std::string& id, const pugi::xml_node& mesh,
+             const Eigen::Affine3d& transform, double mm_per_unit) {
         const bool as_read = transform.matrix().isIdentity(0) && mm_per_unit == 1;
         const bool mirrored = transform.linear().determinant() < 0;
         std::vector<int> vertices;
@@ -200,8 +206,9 @@ private:
                 const std::string_view text = triangle.attribute(names[k]).value();
                 const auto index = parse_integer(text);
                 if (!index || *index < 0 || *index >= std::ssize(vertices))
-                    fail(name + ", object " + id + ", triangle " + std::to_string(number), "it refers to vertex '" + std::string(text) + "', but the object has " +
-                                    std::to_string(vertices.size()),
+                    fail(name + ", object " + id + ", triangle " + std::to_string(number),
+                         "it refers to vertex '" + std::string(text) + "', but the object has " +
+                             std::to_string(vertices.size()),
                          "the file is damaged, export it again");
                 corner[k] = vertices[static_cast<std::size_t>(*index)];
             }

@@ -45,9 +45,9 @@ void check_solid(const InputFile& file, const Mesh& mesh) {
         file.fail(ErrorKind::bad_geometry, "", what, "export the solid's surface as triangles");
     };
     if (mesh.triangles.cols() == 0)
-        refuse(mesh.degenerate_triangles == 0
-                   ? "the file holds no triangles"
-                   : "all " + std::to_string(mesh.degenerate_triangles) + " triangles have two corners at the same point");
+        refuse(mesh.degenerate_triangles == 0 ? "the file holds no triangles"
+                                              : "all " + std::to_string(mesh.degenerate_triangles) +
+                                                    " triangles have two corners at the same point");
     for (int axis = 0; axis < 3; ++axis)
         if (mesh.vertices.row(axis).minCoeff() == mesh.vertices.row(axis).maxCoeff())
             refuse(std::string("the mesh has no volume, all its points have the same ") + "xyz"[axis]);

@@ -28,7 +28,8 @@ void read_off(const InputFile& file, MeshBuilder& mesh) {
     read_header(scan);
     if (!scan.at_line_end()) {
         TextScanner ahead = scan;
-        if (ahead.token("a count") == "BINARY") scan.fail("binary OFF is not read", "save the mesh as text OFF or as STL");
+        if (ahead.token("a count") == "BINARY")
+            scan.fail("binary OFF is not read", "save the mesh as text OFF or as STL");
     }
     const std::size_t vertex_count = count(scan, "the number of vertices");
     if (scan.at_line_end()) scan.fail("the numbers of vertices and faces must stand on one line");

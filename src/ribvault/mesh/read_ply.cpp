@@ -229,7 +229,8 @@ private:
     std::size_t list_length(const Property& property) {
         const double value = body_.value(property.count_type);
         if (!(value >= 0 && value <= 4294967295.0 && value == std::floor(value)))
-            fail("the list '" + property.name + "' has the length " + shown(value), "it is damaged, copy or export it again");
+            fail("the list '" + property.name + "' has the length " + shown(value),
+                 "it is damaged, copy or export it again");
         return static_cast<std::size_t>(value);
     }
 

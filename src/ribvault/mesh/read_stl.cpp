@@ -95,12 +95,14 @@ void read_stl(const InputFile& file, MeshBuilder& mesh) {
     if (is_binary_stl(file)) return read_binary(file, mesh);
     const std::size_t start = std::min(file.data.find_first_not_of(" \t\r\n\xef\xbb\xbf"), file.data.size());
     if (looks_ascii(file, start)) return read_ascii(file, start, mesh);
-    const bool text = std::all_of(file.data.begin(), file.data.begin() + std::min<std::ptrdiff_t>(1000, std::ssize(file.data)),
-                                  [](char c) { return c >= ' ' || std::isspace(static_cast<unsigned char>(c)); });
-    if (text) file.fail(ErrorKind::unreadable, "line 1", "an STL text starts with 'solid', this one does not", "check what the file is");
+    const std::string_view head = std::string_view(file.data).substr(0, 1000);
+    if (std::all_of(head.begin(), head.end(), [](unsigned char c) { return c >= ' ' || std::isspace(c); }))
+        file.fail(ErrorKind::unreadable, "line 1", "an STL text starts with 'solid', this one does not",
+                  "check what the file is");
     if (file.data.size() < header_bytes)
         file.fail(ErrorKind::unreadable, "byte " + std::to_string(file.data.size()),
-                  "the file ends inside the 84 bytes of a binary STL header", "it is incomplete, copy or export it again");
+                  "the file ends inside the 84 bytes of a binary STL header",
+                  "it is incomplete, copy or export it again");
     file.fail(ErrorKind::unreadable, "byte 80",
               "a binary STL header declares " + std::to_string(little_endian_32(&file.data[80])) +
                   " triangles, but the file's " + std::to_string(file.data.size()) + " bytes hold " +

@@ -76,7 +76,8 @@ void TextScanner::next_line() {
 
 std::string_view TextScanner::token(const char* expected) {
     if (at_end())
-        fail(std::string("the file ends where ") + expected + " should follow", "it is incomplete, copy or export it again");
+        fail(std::string("the file ends where ") + expected + " should follow",
+             "it is incomplete, copy or export it again");
     const char* const start = at_;
     while (at_ != end_ && !is_blank(*at_) && !is_newline(*at_) && *at_ != comment_) ++at_;
     return {start, static_cast<std::size_t>(at_ - start)};

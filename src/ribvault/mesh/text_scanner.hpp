@@ -30,7 +30,8 @@ public:
     /// Goes to the start of the next line.
     void next_line();
 
-    /// Next token, over line ends; `expected` says what for when there is none (Error, unreadable: the file is truncated).
+    /// Next token, over line ends; `expected` says what for when there is none (Error, unreadable: the file is
+    /// truncated).
     std::string_view token(const char* expected);
     std::int64_t integer(const char* expected);
     double number(const char* expected);
