@@ -138,7 +138,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, int thre
         if (token->layer >= 0 && token->above.slice)
             overhangs.measure([&] {
                 token->overhang = overhang_over_cavity(*token->material.cavity, *token->above.slice,
-                                                       token->above.cavity->region, settings);
+                                                       *token->above.cavity, settings);
             });
         return token;
     };

@@ -68,16 +68,17 @@ Region intersect(const Region& a, const Region& b) {
 Cavity make_cavity(int layer, Region region, const Settings& s) {
     // Where contours cross by a rounding, a region pulled in by a few units has them apart.
     for (double by = 2; contours_cross(region); by *= 2) region = offset(region, -by);
-    Cavity cavity{layer, std::move(region), {}};
-    if (!cavity.region.empty())
-        cavity.deep = offset(cavity.region, -static_cast<double>(s.support_radius - s.slack), ClipperLib::jtRound,
-                             static_cast<double>(s.slack) / 4);
+    Cavity cavity{layer, std::move(region), {}, {}};
+    if (cavity.region.empty()) return cavity;
+    cavity.inner = offset(cavity.region, -rounding);
+    cavity.deep = offset(cavity.region, -static_cast<double>(s.support_radius - s.slack), ClipperLib::jtRound,
+                         static_cast<double>(s.slack) / 4);
     return cavity;
 }
 
-Region overhang_over_cavity(const Cavity& cavity, const Slice& slice_above, const Region& cavity_above, const Settings& s) {
+Region overhang_over_cavity(const Cavity& cavity, const Slice& slice_above, const Cavity& above, const Settings& s) {
     if (cavity.deep.empty()) return {};
-    Region hanging = clip(ClipperLib::ctDifference, cavity.deep, cavity_above);
+    Region hanging = clip(ClipperLib::ctDifference, cavity.deep, above.inner);
     if (hanging.empty()) return {};
     if (s.top_layers == 0) {
         // Without covers the cavity may reach beyond the slice above; what is not printed needs no support.
@@ -87,10 +88,10 @@ Region overhang_over_cavity(const Cavity& cavity, const Slice& slice_above, cons
     NearestSegment shell, edge_above;
     Region kept;
     for (Region& piece : connected_pieces(hanging)) {
-        const bool thin = offset(piece, -0.6 * static_cast<double>(s.slack)).empty();
+        const bool thin = offset(piece, -0.6 * static_cast<double>(s.slack) - rounding).empty();
         if (thin && shell.empty()) {
             shell = NearestSegment(edges_of(cavity.region));
-            edge_above = NearestSegment(edges_of(cavity_above));
+            edge_above = NearestSegment(edges_of(above.region));
         }
         if (!thin || !is_tie(piece, shell, edge_above, s.support_radius))
             std::move(piece.begin(), piece.end(), std::back_inserter(kept));

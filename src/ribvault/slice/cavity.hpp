@@ -22,6 +22,8 @@ struct Cavity {
     Region region;  ///< C_i: the intersection of the eroded slices i - k .. i + k. From here on exact.
     /// Points of C_i farther than about ρ - slack from the shell: a superset of what the shell does not hold up.
     Region deep;
+    /// C_i without 30 nm along its boundary: cracks between its contours stay open under Clipper's rounding.
+    Region inner;
 };
 /// Contours that cross by a rounding are pulled in by a few lattice units until they do not.
 Cavity make_cavity(int layer, Region region, const Settings& settings);
@@ -29,7 +31,7 @@ Cavity make_cavity(int layer, Region region, const Settings& settings);
 /// Where layer i + 1's shell hangs over cavity i farther than ρ from B_i: a superset of (B_{i+1} ∩ C_i) \ (B_i)^{ρ↑} that
 /// exceeds it by less than twice the slack. Slivers thinner than the slack
 /// whose boundary is within ρ of the shell (exactly decided: a 45° slope recedes by exactly ρ) are left out.
-Region overhang_over_cavity(const Cavity& cavity, const Slice& slice_above, const Region& cavity_above,
+Region overhang_over_cavity(const Cavity& cavity, const Slice& slice_above, const Cavity& above,
                             const Settings& settings);
 
 }  // namespace ribvault

@@ -84,6 +84,8 @@ private:
             const Point middle{(from.x + to.x) / 2, (from.y + to.y) / 2};
             if (squared_length(to - from) <= root_tolerance * root_tolerance ||
                 boundary_.location.locate(middle) != Side::inside) {
+                // Held against what is below like any other piece, for all its last nanometres may reach into the cavity.
+                if (shell_holds_tracks_ && at_boundary(middle)) result_.inherited.push_back({from, to});
                 if (k == 0 && inside_[a]) anchor(a);
                 if (k == meetings_.size() && inside_[b]) anchor(b);
                 continue;
@@ -102,6 +104,8 @@ private:
             return add_vertex(SupportVertex{above_[v].at, true}, result_.forest);
         return add_vertex(SupportVertex{place_root(p, boundary_), true}, result_.forest);
     }
+
+    bool at_boundary(Point p) const { return boundary_.edges.nearest(p).distance.value() <= root_tolerance * root_tolerance; }
 
     /// The wall between v and the shell is too short to keep: v itself becomes a root, so that its tree still has one.
     void anchor(std::size_t v) {

@@ -64,7 +64,7 @@ ErodedSupports erode_supports(const SupportForest& forest, Unit step) {
         add_edge(a, b, result.forest);
     }
     for (std::size_t v = 0; v < n; ++v)
-        if (forest[v].root && vertex[v] < 0 && !at[v].empty()) keep(v);
+        if (forest[v].root && vertex[v] < 0) keep(v);
     return result;
 }
 

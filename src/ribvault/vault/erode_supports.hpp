@@ -15,7 +15,7 @@ struct ErodedSupports {
 
 /// Shortens every free tip (valence 1, not a root) by `step` along its path, through vertices of valence 2; a branch
 /// shorter than that vanishes up to its junction, which becomes a tip only on the next layer; a tree shorter than that
-/// leaves its root as a dot; dots of the input are gone. Every point that is removed lies within `step` of what is left or of the root.
+/// leaves its root as a dot. Every point that is removed lies within `step` of what is left or of the root.
 ErodedSupports erode_supports(const SupportForest& forest, Unit step);
 
 }  // namespace ribvault
