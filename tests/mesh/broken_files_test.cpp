@@ -27,10 +27,12 @@ const Refusal refusals[] = {
     {"endless_components.3mf", ErrorKind::unreadable, ", 3D/3dmodel.model: ", "nested without end"},
     {"flat.off", ErrorKind::bad_geometry, ": ", "no volume, all its points have the same z"},
     {"four_billion.ply", ErrorKind::unreadable, ", byte 226: ", "ends before all declared elements"},
-    {"four_billion.stl", ErrorKind::unreadable, ", byte 80: ", "declares 4294967295 triangles, but the file's 100 bytes hold 0"},
+    {"four_billion.stl", ErrorKind::unreadable, ", byte 80: ",
+     "declares 4294967295 triangles, but the file's 100 bytes hold 0"},
     {"four_dimensions.off", ErrorKind::unreadable, ", line 1: ", "more than three coordinates"},
     {"header_only.stl", ErrorKind::bad_geometry, ": ", "no triangles"},
-    {"index_beyond.3mf", ErrorKind::unreadable, ", object 1, triangle 0: ", "refers to vertex '4', but the object has 4"},
+    {"index_beyond.3mf", ErrorKind::unreadable, ", object 1, triangle 0: ",
+     "refers to vertex '4', but the object has 4"},
     {"index_beyond.obj", ErrorKind::unreadable, ", line 6: ", "refers to vertex 9, but the file has only 4"},
     {"index_beyond.off", ErrorKind::unreadable, ", line 8: ", "refers to vertex 4, but the file has only 4"},
     {"index_beyond.ply", ErrorKind::unreadable, ", line 14: ", "face 0 refers to vertex 7"},
@@ -59,7 +61,8 @@ const Refusal refusals[] = {
     {"word_for_number.off", ErrorKind::unreadable, ", line 4: ", "'x' stands where a coordinate should"},
 };
 
-void check_refused(const std::filesystem::path& file, ErrorKind kind, const std::string& place, const std::string& what) {
+void check_refused(const std::filesystem::path& file, ErrorKind kind, const std::string& place,
+                   const std::string& what) {
     INFO(file);
     try {
         read_mesh(file);

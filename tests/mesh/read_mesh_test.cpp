@@ -11,7 +11,8 @@ using namespace ribvault::test;
 namespace {
 
 /// Every format and variant of it, by file name.
-std::map<std::string, std::string> in_every_format(const std::vector<Triangle>& triangles, const TemporaryFolder& folder) {
+std::map<std::string, std::string> in_every_format(const std::vector<Triangle>& triangles,
+                                                   const TemporaryFolder& folder) {
     const Mesh mesh = weld(triangles);
     std::map<std::string, std::string> files = {
         {"binary.stl", binary_stl(triangles)},
@@ -27,9 +28,8 @@ std::map<std::string, std::string> in_every_format(const std::vector<Triangle>& 
         {"ascii.ply", ply(mesh, "ascii")},
         {"little.ply", ply(mesh, "binary_little_endian")},
         {"big.ply", ply(mesh, "binary_big_endian")}};
-    write_zip(folder.path() / "zip.3mf", {{"3D/3dmodel.model", model_xml("<object id=\"1\" type=\"model\">" + mesh_xml(mesh) +
-                                                                             "</object>",
-                                                                         "<item objectid=\"1\"/>")}});
+    const std::string object = "<object id=\"1\" type=\"model\">" + mesh_xml(mesh) + "</object>";
+    write_zip(folder.path() / "zip.3mf", {{"3D/3dmodel.model", model_xml(object, "<item objectid=\"1\"/>")}});
     files["zip.3mf"] = content(folder.path() / "zip.3mf");
     return files;
 }
@@ -107,8 +107,8 @@ TEST_CASE("changed bytes are read or refused") {
 
 TEST_CASE("decimals become the nearest double") {
     const TemporaryFolder folder;
-    const Mesh mesh = read_mesh(folder.write("a.off", "OFF\n4 4 0\n0.1 +1e-3 -0\n9007199254740993 0 0\n1e-400 1 0\n0 0 5e-324\n"
-                                                      "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"));
+    const Mesh mesh = read_mesh(folder.write("a.off", "OFF\n4 4 0\n0.1 +1e-3 -0\n9007199254740993 0 0\n1e-400 1 0\n"
+                                                      "0 0 5e-324\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"));
     CHECK(mesh.vertices(0, 0) == 0.1);
     CHECK(mesh.vertices(1, 0) == 1e-3);
     CHECK(!std::signbit(mesh.vertices(2, 0)));
@@ -133,8 +133,9 @@ TEST_CASE("equal vertices are welded, -0 is 0, neighbours stay apart, unused one
 TEST_CASE("polygons are fans, convex or not") {
     const TemporaryFolder folder;
     // An L-shaped prism, 3 unit squares by 1, whose first corner does not see all others.
-    const std::string prism = "OFF\n12 8 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 1\n2 0 1\n2 1 1\n1 1 1\n1 2 1\n0 2 1\n"
-                              "6 1 0 5 4 3 2\n6 7 8 9 10 11 6\n4 0 1 7 6\n4 1 2 8 7\n4 2 3 9 8\n4 3 4 10 9\n4 4 5 11 10\n4 5 0 6 11\n";
+    const std::string prism = "OFF\n12 8 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n"
+                              "0 0 1\n2 0 1\n2 1 1\n1 1 1\n1 2 1\n0 2 1\n6 1 0 5 4 3 2\n6 7 8 9 10 11 6\n"
+                              "4 0 1 7 6\n4 1 2 8 7\n4 2 3 9 8\n4 3 4 10 9\n4 4 5 11 10\n4 5 0 6 11\n";
     const MeshFacts facts = examine(read_mesh(folder.write("l.off", prism)), Placement{});
     CHECK(facts.triangles == 20);
     CHECK(facts.closed());
@@ -143,7 +144,8 @@ TEST_CASE("polygons are fans, convex or not") {
 
 TEST_CASE("OBJ: continued lines, faces before vertices") {
     const TemporaryFolder folder;
-    const Mesh mesh = read_mesh(folder.write("a.obj", "f 1 3 2\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 \\\n 2 4\nf 2 3 4\nf 3 1 4"));
+    const Mesh mesh = read_mesh(folder.write("a.obj", "f 1 3 2\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                                      "f 1 \\\n 2 4\nf 2 3 4\nf 3 1 4"));
     CHECK(mesh.triangles.cols() == 4);
     CHECK(examine(mesh, Placement{}).volume_mm3 == Approx(1.0 / 6));
 }
@@ -157,7 +159,8 @@ TEST_CASE("3MF: build items, components, transforms, units, other parts") {
     };
     SECTION("units are converted to millimetres") {
         for (const auto& [unit, mm] : std::map<std::string, double>{
-                 {"micron", 0.001}, {"millimeter", 1}, {"centimeter", 10}, {"inch", 25.4}, {"foot", 304.8}, {"meter", 1000}}) {
+                 {"micron", 0.001}, {"millimeter", 1}, {"centimeter", 10},
+                 {"inch", 25.4},    {"foot", 304.8},   {"meter", 1000}}) {
             const Mesh mesh = read({{"3D/3dmodel.model", model_xml("<object id=\"1\">" + unit_cube + "</object>",
                                                                    "<item objectid=\"1\"/>", unit)}});
             CHECK(mesh.vertices.maxCoeff() == mm);
@@ -177,13 +180,15 @@ TEST_CASE("3MF: build items, components, transforms, units, other parts") {
         CHECK(mesh.vertices.rowwise().maxCoeff() == weld(expected).vertices.rowwise().maxCoeff());
     }
     SECTION("a mirrored object keeps its outside") {
-        const Mesh mesh = read({{"3D/3dmodel.model", model_xml("<object id=\"1\">" + unit_cube + "</object>",
-                                                               "<item objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 0 0 0\"/>")}});
+        const Mesh mesh = read({{"3D/3dmodel.model",
+            model_xml("<object id=\"1\">" + unit_cube + "</object>",
+                      "<item objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 0 0 0\"/>")}});
         CHECK(examine(mesh, Placement{}).volume_mm3 == Approx(1));
     }
     SECTION("objects that are no model are left out") {
         const Mesh mesh = read({{"3D/3dmodel.model",
-            model_xml("<object id=\"1\">" + unit_cube + "</object><object id=\"2\" type=\"support\">" + unit_cube + "</object>",
+            model_xml("<object id=\"1\">" + unit_cube + "</object>"
+                      "<object id=\"2\" type=\"support\">" + unit_cube + "</object>",
                       "<item objectid=\"1\"/><item objectid=\"2\" transform=\"1 0 0 0 1 0 0 0 1 9 0 0\"/>")}});
         CHECK(mesh.triangles.cols() == 12);
     }

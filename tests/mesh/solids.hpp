@@ -54,7 +54,8 @@ inline std::vector<Triangle> box(Corner lo, Corner hi, bool inverted = false) {
     const auto corner = [&](int bits) {
         return Corner{bits & 1 ? hi[0] : lo[0], bits & 2 ? hi[1] : lo[1], bits & 4 ? hi[2] : lo[2]};
     };
-    static constexpr int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    static constexpr int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                        {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
     std::vector<Triangle> triangles;
     for (const auto& q : quads)
         for (int k = 2; k < 4; ++k) {
@@ -151,14 +152,15 @@ inline std::string obj(const Mesh& mesh, bool negative = false) {
         text += "f";
         for (int k = 0; k < 3; ++k) {
             const int index = mesh.triangles(k, t);
-            text += " " + std::to_string(negative ? index - count : index + 1) + (negative ? "//1" : k == 1 ? "/1/1" : "");
+            text += " " + std::to_string(negative ? index - count : index + 1) +
+                    (negative ? "//1" : k == 1 ? "/1/1" : "");
         }
         text += "\n";
     }
     return text;
 }
 
-/// With a colour before and a list after the coordinates, an element of another kind, and a property behind the corners.
+/// With a colour before and a list after the coordinates, an element of another kind, and a property after the corners.
 inline std::string ply(const Mesh& mesh, const std::string& format) {
     std::string text = "ply\nformat " + format + " 1.0\ncomment made by hand\nelement vertex " +
                        std::to_string(mesh.vertices.cols()) +
@@ -167,7 +169,9 @@ inline std::string ply(const Mesh& mesh, const std::string& format) {
                        std::to_string(mesh.triangles.cols()) +
                        "\nproperty list uint8 uint vertex_index\nproperty ushort flags\nend_header\n";
     const std::endian order = format == "binary_big_endian" ? std::endian::big : std::endian::little;
-    const auto put = [&](auto value) { text += format == "ascii" ? shortest(double(value)) + " " : bytes(value, order); };
+    const auto put = [&](auto value) {
+        text += format == "ascii" ? shortest(static_cast<double>(value)) + " " : bytes(value, order);
+    };
     const auto end_row = [&] { text += format == "ascii" ? "\n" : ""; };
     for (int v = 0; v < mesh.vertices.cols(); ++v) {
         put(std::uint8_t{200});
@@ -196,7 +200,8 @@ inline std::string mesh_xml(const Mesh& mesh) {
     return text + "</triangles></mesh>";
 }
 
-inline std::string model_xml(const std::string& resources, const std::string& build, const std::string& unit = "millimeter") {
+inline std::string model_xml(const std::string& resources, const std::string& build,
+                             const std::string& unit = "millimeter") {
     return "<?xml version=\"1.0\"?><model unit=\"" + unit +
            "\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" "
            "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\"><resources>" +
@@ -207,8 +212,8 @@ inline void write_zip(const std::filesystem::path& file, const std::map<std::str
     int error = 0;
     zip_t* archive = zip_open(file.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &error);
     REQUIRE(archive != nullptr);
-    for (const auto& [name, content] : parts)
-        REQUIRE(zip_file_add(archive, name.c_str(), zip_source_buffer(archive, content.data(), content.size(), 0), 0) >= 0);
+    for (const auto& [name, text] : parts)
+        REQUIRE(zip_file_add(archive, name.c_str(), zip_source_buffer(archive, text.data(), text.size(), 0), 0) >= 0);
     REQUIRE(zip_close(archive) == 0);
 }
 
