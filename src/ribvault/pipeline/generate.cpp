@@ -1,0 +1,223 @@
+#include "ribvault/pipeline/generate.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "ribvault/error.hpp"
+#include "ribvault/mesh/read_mesh.hpp"
+#include "ribvault/output_file.hpp"
+#include "ribvault/pipeline/layer_spool.hpp"
+#include "ribvault/pipeline/sweep_layers.hpp"
+#include "ribvault/print/shell_paths.hpp"
+#include "ribvault/print/support_paths.hpp"
+#include "ribvault/print/write_gcode.hpp"
+#include "ribvault/report/layer_svg.hpp"
+#include "ribvault/report/write_mesh.hpp"
+#include "ribvault/verify/verify_layer.hpp"
+
+namespace ribvault {
+namespace {
+
+using Time = std::chrono::steady_clock;
+
+double seconds_since(Time::time_point start) { return std::chrono::duration<double>(Time::now() - start).count(); }
+
+/// What one layer adds to the outputs; computed concurrently, collected in order.
+struct LayerOutput {
+    LayerReport report;
+    std::string gcode, walls;
+    std::optional<AtomicFile> picture;
+};
+
+class Run {
+public:
+    explicit Run(const Job& job) : job_(job), start_(Time::now()) {}
+
+    RunReport execute() {
+        job_.settings.check();
+        report_.version = RIBVAULT_VERSION;
+        report_.input_path = job_.model.string();
+        report_.settings = job_.settings;
+        report_.printer = job_.printer;
+        read();
+        const Slicer slicer(mesh_, report_.placement, job_.settings);
+        check_layers(slicer);
+        open_outputs(slicer.layer_count());
+        times_["read"] = seconds_since(start_);
+
+        const auto finish = [&](const SweptLayer& layer, const LayerMaterial* below) { return std::shared_ptr<void>(finish_layer(slicer, layer, below)); };
+        const auto collect = [&](const SweptLayer&, std::shared_ptr<void> output) { collect_layer(*std::static_pointer_cast<LayerOutput>(output)); };
+        times_.merge(sweep_layers(slicer, job_.settings, job_.threads, finish, collect, job_.stop));
+        times_.erase("finish");  // its parts are counted one by one
+        times_["proof"] = 1e-9 * static_cast<double>(proof_), times_["paths"] = 1e-9 * static_cast<double>(paths_);
+        times_["pictures"] = 1e-9 * static_cast<double>(pictures_);
+        write_outputs();
+        return std::move(report_);
+    }
+
+private:
+    void read() {
+        mesh_ = read_mesh(job_.model);
+        report_.placement = place(mesh_, job_.placement);
+        report_.input = examine(mesh_, report_.placement);
+    }
+
+    void check_layers(const Slicer& slicer) {
+        if (slicer.layer_count() == 0)
+            throw Error(ErrorKind::does_not_fit, job_.model.string() + ": no layer meets the model, which is " +
+                                                     std::to_string(report_.input.size_mm[2]) + " mm high; scale it up or use thinner layers");
+        if (report_.input.closed()) return;
+        job_.warn(job_.model.string() + ": the mesh is not closed (" + std::to_string(report_.input.boundary_edges) +
+                  " boundary edges); its slices are closed over gaps up to --max-gap");
+        require_closed_contours(slicer, job_.settings);
+    }
+
+    void open_outputs(int layers) {
+        header_ = gcode_header(job_.settings, job_.printer, layers);
+        if (job_.gcode) {
+            gcode_.emplace(*job_.gcode);
+            spool_.emplace();
+        }
+        if (job_.report) json_.emplace(*job_.report);
+        if (job_.mesh) {
+            walls_.emplace(*job_.mesh);
+            as_3mf_ = job_.mesh->extension() == ".3mf";
+            if (!as_3mf_) walls_->write(stl_header(0));
+        }
+        if (job_.svg) {
+            std::error_code error;
+            std::filesystem::create_directories(*job_.svg, error);
+            if (error)
+                throw Error(ErrorKind::cannot_write, job_.svg->string() + ": cannot make this folder (" + error.message() + "); choose another with --svg");
+        }
+        total_ = layers;
+        job_.progress(0, total_);
+    }
+
+    std::shared_ptr<LayerOutput> finish_layer(const Slicer& slicer, const SweptLayer& swept, const LayerMaterial* below) {
+        const Settings& s = job_.settings;
+        const LayerMaterial& layer = swept.material;
+        auto output = std::make_shared<LayerOutput>();
+        LayerReport& r = output->report;
+
+        auto from = Time::now();
+        r.verdict.layer = layer.layer;
+        r.verdict.supported = true;  // layer 0 lies on the bed
+        if (below) r.verdict = verify_layer(layer.layer, geometry(layer), geometry(*below), s);
+        proof_ += (Time::now() - from).count();
+
+        from = Time::now();
+        LayerPaths paths;
+        paths.layer = layer.layer;
+        append_shell_paths(*layer.slice, layer.cavity->region, s, paths);
+        append_support_paths(swept.forest, s, paths);
+        LayerText text = gcode_layer(paths, s, job_.printer);
+        if (job_.gcode) output->gcode = std::move(text.text);
+        paths_ += (Time::now() - from).count();
+
+        const double height = to_mm(layer.layer == 0 ? s.first_layer_height : s.layer_height);
+        const PrintStatistics& p = text.statistics;
+        r.layer = layer.layer;
+        r.z_mm = slicer.plane_height(layer.layer).get_d();
+        r.shell_area_mm2 = area_to_mm2(signed_area(layer.slice->rounded) - signed_area(layer.cavity->region));
+        r.shell_volume_mm3 = r.shell_area_mm2 * height;
+        for (const Segment& track : *layer.tracks) r.support_length_mm += length(track) / units_per_mm;
+        const auto of = [](TrackKind kind) { return static_cast<std::size_t>(kind); };
+        r.support_printed_length_mm = p.length[of(TrackKind::support)];
+        r.support_volume_mm3 = p.volume[of(TrackKind::support)];
+        r.gaps = paths.gaps;
+        r.perimeter_length_mm = p.length[of(TrackKind::outer_perimeter)] + p.length[of(TrackKind::inner_perimeter)];
+        r.cover_length_mm = p.length[of(TrackKind::cover)];
+        r.filament_mm = p.filament;
+        r.trees = static_cast<int>(num_vertices(swept.forest) - num_edges(swept.forest));
+        r.closings = layer.closings;
+
+        from = Time::now();
+        if (job_.svg) {
+            char name[32];
+            std::snprintf(name, sizeof name, "layer_%05d.svg", layer.layer);
+            output->picture.emplace(*job_.svg / name, false);
+            output->picture->write(layer_svg(*layer.slice, layer.cavity->region, swept.forest, swept.unsupported, s));
+            output->picture->finish();
+        }
+        if (job_.mesh) {
+            const Unit top = top_of_layer(layer.layer, s);
+            append_walls(swept.forest, top - (layer.layer == 0 ? s.first_layer_height : s.layer_height), top, s, output->walls);
+        }
+        pictures_ += (Time::now() - from).count();
+        return output;
+    }
+
+    static LayerGeometry geometry(const LayerMaterial& layer) { return {layer.slice->exact.get(), &layer.cavity->region, *layer.tracks}; }
+
+    void collect_layer(LayerOutput& output) {
+        if (spool_) spool_->add(output.gcode);
+        if (output.picture) svgs_.push_back(std::move(*output.picture));
+        if (walls_) {
+            facets_ += static_cast<std::uint32_t>(output.walls.size() / 50);
+            if (as_3mf_)
+                kept_walls_ += output.walls;
+            else
+                walls_->write(output.walls);
+        }
+        report_.layers.push_back(std::move(output.report));
+        job_.progress(static_cast<int>(report_.layers.size()), total_);
+    }
+
+    void write_outputs() {
+        sum_up(report_);
+        if (report_.totals.shell_volume_mm3 <= 0)
+            throw Error(ErrorKind::bad_geometry, job_.model.string() + ": the mesh encloses no volume; is it a surface without thickness?");
+        const auto from = Time::now();
+        if (gcode_) {
+            gcode_->write(header_);
+            spool_->replay_backwards([&](std::string_view text) { gcode_->write(text); });
+            gcode_->write(gcode_footer());
+            gcode_->finish();
+        }
+        if (walls_) {
+            if (as_3mf_)
+                walls_->write(walls_3mf(kept_walls_));
+            else
+                walls_->overwrite(0, stl_header(facets_));
+            walls_->finish();
+        }
+        times_["write"] = seconds_since(from);
+        report_.machine.threads = job_.threads > 0 ? job_.threads : static_cast<int>(std::thread::hardware_concurrency());
+        report_.machine.stage_seconds = times_;
+        report_.machine.seconds = seconds_since(start_);
+        report_.machine.peak_memory_mb = peak_memory_mb();
+        if (json_) {
+            json_->write(to_json(report_));
+            json_->finish();
+        }
+        if (job_.stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+        if (gcode_) gcode_->commit();
+        if (walls_) walls_->commit();
+        for (AtomicFile& svg : svgs_) svg.commit();
+        if (json_) json_->commit();
+    }
+
+    const Job& job_;
+    Time::time_point start_;
+    Mesh mesh_;
+    RunReport report_;
+    std::string header_, kept_walls_;
+    std::optional<AtomicFile> gcode_, json_, walls_;
+    std::optional<LayerSpool> spool_;
+    std::vector<AtomicFile> svgs_;
+    bool as_3mf_ = false;
+    std::uint32_t facets_ = 0;
+    int total_ = 0;
+    StageTimes times_;
+    std::atomic<std::int64_t> proof_{0}, paths_{0}, pictures_{0};  // ns
+};
+
+}  // namespace
+
+RunReport generate(const Job& job) { return Run(job).execute(); }
+
+}  // namespace ribvault

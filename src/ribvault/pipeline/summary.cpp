@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+
+#include "ribvault/pipeline/generate.hpp"
+
+namespace ribvault {
+namespace {
+
+__attribute__((format(printf, 2, 3))) void print(std::string& text, const char* format, ...) {
+    char line[512];
+    va_list arguments;
+    va_start(arguments, format);
+    std::vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    text += line;
+}
+
+void describe_verdict(std::string& text, const RunReport& r) {
+    const auto layers = static_cast<int>(r.layers.size());
+    if (r.verdict.proved)
+        print(text, "proved    equation (2) holds on all %d layers, decided exactly\n", layers);
+    else
+        print(text, "NOT PROVED  %zu of %d layers are not supported:\n", r.verdict.layers_refuted.size(), layers);
+    int shown = 0;
+    for (const LayerReport& layer : r.layers) {
+        if (layer.verdict.supported || shown++ == 5) continue;
+        if (const auto& hole = layer.verdict.internal)
+            print(text, "  layer %d: %.3g to %.3g mm2, among them (%.6f, %.6f) mm\n", layer.layer, hole->area_lo, hole->area_hi,
+                  hole->witness[0], hole->witness[1]);
+        else
+            print(text, "  layer %d: %s\n", layer.layer, layer.verdict.malformed.c_str());
+    }
+    if (!r.verdict.external_overhangs.empty()) {
+        double area = 0;
+        const ExternalOverhang* worst = &r.verdict.external_overhangs.front();
+        for (const ExternalOverhang& o : r.verdict.external_overhangs) {
+            area += o.area_hi_mm2;
+            if (o.area_hi_mm2 > worst->area_hi_mm2) worst = &o;
+        }
+        print(text, "warning   the outside overhangs on %zu layers (at most %.3g mm2 in all, most on layer %d):\n"
+                    "          no internal support can hold that; see \"external_overhangs\" in the report\n",
+              r.verdict.external_overhangs.size(), area, worst->layer);
+    }
+}
+
+}  // namespace
+
+std::string summary(const RunReport& r, const Job& job) {
+    std::string text;
+    print(text, "%s: %zu triangles, %.2f x %.2f x %.2f mm, %.1f mm3, %zu component%s, %zu layers\n", r.input_path.c_str(),
+          r.input.triangles, r.input.size_mm[0], r.input.size_mm[1], r.input.size_mm[2], r.input.volume_mm3, r.input.components,
+          r.input.components == 1 ? "" : "s", r.layers.size());
+    describe_verdict(text, r);
+    print(text, "material  %.1f mm3: shell and covers %.1f, supports %.1f (%.0f mm of track); %.2f m of filament\n",
+          r.totals.material_mm3, r.totals.shell_volume_mm3, r.totals.support_volume_mm3, r.totals.support_printed_length_mm,
+          r.totals.filament_mm / 1000);
+    if (r.totals.closings > 0) print(text, "warning   %ld gaps in open contours were closed; the report names them\n", r.totals.closings);
+    print(text, "time      %.2f s on %d threads, %.0f MB\n", r.machine.seconds, r.machine.threads, r.machine.peak_memory_mb);
+    const std::pair<const char*, const std::optional<std::filesystem::path>&> written[] = {
+        {"G-code", job.gcode}, {"report", job.report}, {"layers", job.svg}, {"walls", job.mesh}};
+    for (const auto& [name, path] : written)
+        if (path) print(text, "%-9s %s\n", name, path->string().c_str());
+    return text;
+}
+
+}  // namespace ribvault
