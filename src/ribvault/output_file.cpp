@@ -16,8 +16,8 @@ namespace ribvault {
 
 namespace fs = std::filesystem;
 
-/// One temporary name in the list that discard_pending_files() walks. Nodes are never freed nor reused: a signal handler
-/// may be reading one at any time. They cost about a hundred bytes a file.
+/// One temporary name in the list that discard_pending_files() walks. Nodes are never freed nor reused: a signal
+/// handler may be reading one at any time. They cost about a hundred bytes a file.
 struct AtomicFile::Pending {
     const std::string name;
     std::atomic<bool> active{true};
@@ -77,7 +77,8 @@ std::string_view remedy_for(int error_number) {
 void AtomicFile::fail(int error_number, std::string_view remedy) const {
     if (remedy.empty()) remedy = remedy_for(error_number);
     throw Error(ErrorKind::cannot_write, "cannot write " + target_.string() + ": " +
-                                             std::generic_category().message(error_number) + "; " + std::string(remedy));
+                                             std::generic_category().message(error_number) + "; " +
+                                             std::string(remedy));
 }
 
 AtomicFile::AtomicFile(fs::path target, bool durable)
@@ -106,8 +107,8 @@ void AtomicFile::open_beside_target() {
     static std::atomic<unsigned> serial{0};
     // A name of its own, not one made from the target's, which may be as long as names can be.
     for (int attempt = 0; attempt < 1000; ++attempt) {
-        const fs::path name = final_.parent_path() / (".ribvault-" + std::to_string(::getpid()) + "-" +
-                                                      std::to_string(serial++) + ".part");
+        const fs::path name = final_.parent_path() /
+                              (".ribvault-" + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".part");
         // Listed before it exists, so that no signal finds a file that is not listed; the O_EXCL below keeps a file of
         // the same name that is not ours, and then the node must not stay active.
         Pending* pending = Pending::add(name.string());
@@ -123,8 +124,12 @@ void AtomicFile::open_beside_target() {
 }
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : target_(std::move(other.target_)), final_(std::move(other.final_)), pending_(std::exchange(other.pending_, nullptr)),
-      buffer_(std::move(other.buffer_)), descriptor_(std::exchange(other.descriptor_, -1)), durable_(other.durable_) {}
+    : target_(std::move(other.target_)),
+      final_(std::move(other.final_)),
+      pending_(std::exchange(other.pending_, nullptr)),
+      buffer_(std::move(other.buffer_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      durable_(other.durable_) {}
 
 AtomicFile::~AtomicFile() { discard(); }
 

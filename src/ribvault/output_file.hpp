@@ -9,8 +9,8 @@
 namespace ribvault {
 
 /// A file being written: under a temporary name in the folder of its target until commit(). Destroyed before that, it
-/// leaves nothing behind, and a file that was already there is untouched. A target that exists and is no regular file (a
-/// device, a pipe) is written directly.
+/// leaves nothing behind, and a file that was already there is untouched. A target that exists and is no regular file
+/// (a device, a pipe) is written directly.
 ///
 /// Every failure (no folder, no permission, disk full) throws Error (cannot_write) with the target's name and the
 /// system's reason, at the latest in finish(); the temporary file is then removed when the object is destroyed.
@@ -58,8 +58,8 @@ private:
     bool durable_ = true;
 };
 
-/// Removes the temporary files of all AtomicFiles that are not committed. May be called from a signal handler that ends the
-/// program: it takes no lock and allocates nothing.
+/// Removes the temporary files of all AtomicFiles that are not committed. May be called from a signal handler that ends
+/// the program: it takes no lock and allocates nothing.
 void discard_pending_files() noexcept;
 
 }  // namespace ribvault

@@ -106,7 +106,8 @@ TEST_CASE("names as long as names can be are written") {
 TEST_CASE("what cannot be opened is refused with name, reason and remedy") {
     const ScratchFolder folder;
     const std::string missing = refusal([&] { AtomicFile(folder / "no" / "a.txt"); });
-    CHECK_THAT(missing, Catch::Contains("no/a.txt") && Catch::Contains("No such file") && Catch::Contains("create the folder"));
+    CHECK_THAT(missing,
+               Catch::Contains("no/a.txt") && Catch::Contains("No such file") && Catch::Contains("create the folder"));
     CHECK_THAT(refusal([&] { AtomicFile(folder.path()); }), Catch::Contains("Is a directory"));
     CHECK_THAT(refusal([&] { AtomicFile(folder.path().string() + "/"); }), Catch::Contains("Is a directory"));
     std::ofstream(folder / "file") << "";

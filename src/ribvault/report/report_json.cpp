@@ -1,0 +1,176 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "ribvault/report/run_report.hpp"
+
+namespace ribvault {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A measured length, area or volume, to 1e-6: below that it says nothing.
+double measured(double value) {
+    const double rounded = std::round(value * 1e6) / 1e6;
+    return rounded == 0 ? 0 : rounded;  // no -0
+}
+
+Json facts(const MeshFacts& f) {
+    return {{"triangles", f.triangles},
+            {"vertices", f.vertices},
+            {"size_mm", {measured(f.size_mm[0]), measured(f.size_mm[1]), measured(f.size_mm[2])}},
+            {"volume_mm3", measured(f.volume_mm3)},
+            {"components", f.components},
+            {"closed", f.closed()},
+            {"boundary_edges", f.boundary_edges},
+            {"non_manifold_edges", f.non_manifold_edges},
+            {"unbalanced_edges", f.unbalanced_edges},
+            {"degenerate_triangles", f.degenerate_triangles},
+            {"duplicate_triangles", f.duplicate_triangles},
+            {"inverted_components", f.inverted_components}};
+}
+
+Json placement(const Placement& p) {
+    Json axes = Json::array(), offset = Json::array();
+    for (std::size_t k = 0; k < 3; ++k) {
+        axes.push_back(std::string(p.sign[k] < 0 ? "-" : "+") + "xyz"[p.axis[k]]);
+        offset.push_back(p.offset[k].get_str());
+    }
+    return {{"axes", axes}, {"scale", p.scale.get_str()}, {"offset_mm", offset}};
+}
+
+Json settings(const Settings& s) {
+    return {{"layer_height_mm", to_mm(s.layer_height)},
+            {"first_layer_height_mm", to_mm(s.first_layer_height)},
+            {"nozzle_mm", to_mm(s.nozzle)},
+            {"support_radius_mm", to_mm(s.support_radius)},
+            {"perimeters", s.perimeters},
+            {"top_layers", s.top_layers},
+            {"bottom_layers", s.bottom_layers},
+            {"erosion_step_mm", to_mm(s.erosion_step)},
+            {"straighten", s.straighten},
+            {"straighten_step_mm", to_mm(s.straighten_step)},
+            {"branch_bonus", s.branch_bonus},
+            {"branch_bonus_length_mm", to_mm(s.branch_bonus_length)},
+            {"valence_limit", s.valence_limit},
+            {"seed", s.seed},
+            {"sampling_pitch_mm", to_mm(s.sampling_pitch)},
+            {"slack_mm", to_mm(s.slack)},
+            {"max_gap_mm", to_mm(s.max_gap)}};
+}
+
+Json printer(const PrinterSettings& p) {
+    return {{"filament_diameter_mm", p.filament_diameter},
+            {"nozzle_temperature_c", p.nozzle_temperature},
+            {"bed_temperature_c", p.bed_temperature},
+            {"print_speed_mm_s", p.print_speed},
+            {"support_speed_mm_s", p.support_speed},
+            {"first_layer_speed_mm_s", p.first_layer_speed},
+            {"travel_speed_mm_s", p.travel_speed},
+            {"retraction_mm", p.retraction},
+            {"retraction_speed_mm_s", p.retraction_speed},
+            {"retract_over_mm", p.retract_over},
+            {"prime_surplus", p.prime_surplus},
+            {"surplus_clearance_mm", p.surplus_clearance},
+            {"bed_mm", {p.bed_x, p.bed_y, p.bed_z}}};
+}
+
+Json stages(const StageCounts& c) {
+    return {{"interval", c.interval}, {"rational", c.rational}, {"algebraic", c.algebraic}};
+}
+
+/// Bounds and witnesses are not rounded: the statement is about these very numbers.
+Json unsupported(const std::optional<Unsupported>& u) {
+    if (!u) return nullptr;
+    return {{"area_mm2", {u->area_lo, u->area_hi}},
+            {"witness_mm", u->witness},
+            {"witness_certified", u->witness_certified},
+            {"witness_distance_mm", u->witness_distance}};
+}
+
+Json verdict(const LayerVerdict& v) {
+    return {{"supported", v.supported},
+            {"internal", unsupported(v.internal)},
+            {"external", unsupported(v.external)},
+            {"malformed", v.malformed.empty() ? Json(nullptr) : Json(v.malformed)},
+            {"stages", stages(v.stages)}};
+}
+
+Json layer_json(const LayerReport& l) {
+    Json closings = Json::array();
+    for (const GapClosing& c : l.closings) closings.push_back({{"x_mm", c.x}, {"y_mm", c.y}, {"length_mm", c.length}});
+    return {{"layer", l.layer},
+            {"z_mm", measured(l.z_mm)},
+            {"shell_area_mm2", measured(l.shell_area_mm2)},
+            {"shell_volume_mm3", measured(l.shell_volume_mm3)},
+            {"support_length_mm", measured(l.support_length_mm)},
+            {"support_printed_length_mm", measured(l.support_printed_length_mm)},
+            {"support_volume_mm3", measured(l.support_volume_mm3)},
+            {"gaps", l.gaps},
+            {"perimeter_length_mm", measured(l.perimeter_length_mm)},
+            {"cover_length_mm", measured(l.cover_length_mm)},
+            {"filament_mm", measured(l.filament_mm)},
+            {"trees", l.trees},
+            {"verdict", verdict(l.verdict)},
+            {"closings", closings}};
+}
+
+Json summary(const VerdictSummary& v) {
+    Json external = Json::array();
+    for (const ExternalOverhang& o : v.external_overhangs)
+        external.push_back({{"layer", o.layer}, {"area_mm2", {o.area_lo_mm2, o.area_hi_mm2}}});
+    return {{"proved", v.proved},
+            {"layers_proved", v.layers_proved},
+            {"layers_refuted", v.layers_refuted},
+            {"external_overhangs", external},
+            {"stages", stages(v.stages)}};
+}
+
+Json totals(const RunTotals& t, std::size_t layers) {
+    return {{"layers", layers},
+            {"shell_volume_mm3", measured(t.shell_volume_mm3)},
+            {"support_volume_mm3", measured(t.support_volume_mm3)},
+            {"material_mm3", measured(t.material_mm3)},
+            {"support_length_mm", measured(t.support_length_mm)},
+            {"support_printed_length_mm", measured(t.support_printed_length_mm)},
+            {"perimeter_length_mm", measured(t.perimeter_length_mm)},
+            {"cover_length_mm", measured(t.cover_length_mm)},
+            {"filament_mm", measured(t.filament_mm)},
+            {"gaps", t.gaps},
+            {"closings", t.closings}};
+}
+
+Json machine(const MachineFacts& m) {
+    Json seconds = Json::object();
+    for (const auto& [stage, s] : m.stage_seconds) seconds[stage] = measured(s);
+    return {{"threads", m.threads},
+            {"seconds", measured(m.seconds)},
+            {"peak_memory_mb", measured(m.peak_memory_mb)},
+            {"stage_seconds", seconds}};
+}
+
+std::string text_of(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace
+
+std::string to_json(const RunReport& report) {
+    std::string text = "{\n  \"schema\": \"ribvault-run/1\"";
+    const auto member = [&text](const char* name, const Json& value) {
+        text.append(",\n  \"").append(name).append("\": ").append(text_of(value));
+    };
+    member("program", {{"name", "ribvault"}, {"version", report.version}});
+    member("input",
+           {{"path", report.input_path}, {"mesh", facts(report.input)}, {"placement", placement(report.placement)}});
+    member("settings", settings(report.settings));
+    member("printer", printer(report.printer));
+    member("verdict", summary(report.verdict));
+    member("totals", totals(report.totals, report.layers.size()));
+    text += ",\n  \"layers\": [";
+    for (std::size_t i = 0; i < report.layers.size(); ++i)
+        text.append(i == 0 ? "\n    " : ",\n    ").append(text_of(layer_json(report.layers[i])));
+    text += report.layers.empty() ? "]" : "\n  ]";
+    member("machine", machine(report.machine));
+    text += "\n}\n";
+    return text;
+}
+
+}  // namespace ribvault

@@ -1,0 +1,92 @@
+// Everything a run has to say about itself: input, settings, every layer, the proof.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "ribvault/mesh/examine_mesh.hpp"
+#include "ribvault/settings.hpp"
+#include "ribvault/slice/slice_mesh.hpp"
+#include "ribvault/verify/verdict.hpp"
+
+namespace ribvault {
+
+/// One layer as printed. docs/report-schema.md says how each number is measured.
+struct LayerReport {
+    int layer = 0;
+    double z_mm = 0;                       ///< z_i, the plane of the slice
+    double shell_area_mm2 = 0;             ///< area(B_i): perimeters and covers
+    double shell_volume_mm3 = 0;           ///< its area times the layer's height
+    double support_length_mm = 0;          ///< centre lines of S_i, through their junctions
+    double support_printed_length_mm = 0;  ///< the same without the gaps of Section 4.4
+    double support_volume_mm3 = 0;         ///< printed length times d times the layer's height, and dots
+    int gaps = 0;                          ///< branches that stop short of their junction
+    double perimeter_length_mm = 0;
+    double cover_length_mm = 0;
+    double filament_mm = 0;  ///< pushed along all tracks of the layer
+    int trees = 0;           ///< connected components of S_i
+    LayerVerdict verdict;    ///< equation (2) for this layer over the one below; layer 0 lies on the bed
+    std::vector<GapClosing> closings;
+};
+
+/// Sums over the layers.
+struct RunTotals {
+    double shell_volume_mm3 = 0;
+    double support_volume_mm3 = 0;
+    double material_mm3 = 0;  ///< shell and supports
+    double support_length_mm = 0;
+    double support_printed_length_mm = 0;
+    double perimeter_length_mm = 0;
+    double cover_length_mm = 0;
+    double filament_mm = 0;
+    long gaps = 0;
+    long closings = 0;
+};
+
+struct ExternalOverhang {
+    int layer = 0;  ///< the layer that hangs outside the one below
+    double area_lo_mm2 = 0, area_hi_mm2 = 0;
+};
+
+struct VerdictSummary {
+    bool proved = false;  ///< every layer is; external overhangs are not counted against it
+    int layers_proved = 0;
+    std::vector<int> layers_refuted;
+    std::vector<ExternalOverhang> external_overhangs;
+    StageCounts stages;
+};
+
+/// What differs between two runs of the same job.
+struct MachineFacts {
+    int threads = 0;
+    double seconds = 0;                           ///< the whole run, wall clock
+    double peak_memory_mb = 0;                    ///< 1 MB = 1e6 bytes
+    std::map<std::string, double> stage_seconds;  ///< busy time of each stage, summed over threads
+};
+
+struct RunReport {
+    std::string version;     ///< of the program
+    std::string input_path;  ///< as the user wrote it
+    MeshFacts input;
+    Placement placement;
+    Settings settings;
+    PrinterSettings printer;
+    std::vector<LayerReport> layers;
+    RunTotals totals;
+    VerdictSummary verdict;
+    MachineFacts machine;
+};
+
+/// Puts the layers in order, from layer 0, and fills totals and verdict from them. Without layers nothing is proved.
+void sum_up(RunReport& report);
+
+/// Peak resident memory of this process so far, in MB (1e6 bytes).
+double peak_memory_mb();
+
+/// The report as JSON, schema "ribvault-run/1" (docs/report-schema.md, docs/run-report.schema.json), one line a layer.
+/// Equal reports give equal text; what differs between runs of the same job stands in the last member, "machine",
+/// alone. Text that is not UTF-8 (a file name) has U+FFFD in its place. Numbers that are not finite become null.
+std::string to_json(const RunReport& report);
+
+}  // namespace ribvault
