@@ -7,9 +7,11 @@
 namespace ribvault {
 namespace {
 
-mpz_class to_mpz(__int128 v) {
+__extension__ typedef unsigned __int128 UInt128;
+
+mpz_class to_mpz(Int128 v) {
     const bool negative = v < 0;
-    const unsigned __int128 u = negative ? -static_cast<unsigned __int128>(v) : static_cast<unsigned __int128>(v);
+    const UInt128 u = negative ? -static_cast<UInt128>(v) : static_cast<UInt128>(v);
     mpz_class result(static_cast<unsigned long>(u >> 64));
     result <<= 64;
     result += static_cast<unsigned long>(u & ~0ULL);
@@ -43,16 +45,16 @@ SquaredDistance squared_distance(Point p, const Segment& s) {
     if (along <= 0) return {squared_length(v), 1};
     if (along >= l2) return {squared_length(p - s.b), 1};
     // Axis-parallel segments give whole numbers, so that equal distances to different ones compare equal at once.
-    if (u.x == 0) return {static_cast<__int128>(v.x) * v.x, 1};
-    if (u.y == 0) return {static_cast<__int128>(v.y) * v.y, 1};
+    if (u.x == 0) return {static_cast<Int128>(v.x) * v.x, 1};
+    if (u.y == 0) return {static_cast<Int128>(v.y) * v.y, 1};
     const std::int64_t c = cross(s.a, s.b, p);
-    return {static_cast<__int128>(c) * c, l2};
+    return {static_cast<Int128>(c) * c, l2};
 }
 
 int compare_distance(Point p, const Segment& s, Unit radius) {
     // |cross| < 2^63 and radius^2 * length^2 < 2^62 * 2^63: both sides fit 128 bits.
     const SquaredDistance d = squared_distance(p, s);
-    const __int128 bound = static_cast<__int128>(radius) * radius * d.denominator;
+    const Int128 bound = static_cast<Int128>(radius) * radius * d.denominator;
     return (d.numerator > bound) - (d.numerator < bound);
 }
 

@@ -5,6 +5,8 @@
 
 namespace ribvault {
 
+__extension__ typedef __int128 Int128;  // not part of ISO C++; g++ and clang have it on every 64-bit platform
+
 /// Twice the signed area of the triangle (a, b, c): positive when c lies to the left of a -> b. Exact: coordinate
 /// differences stay below 2^31 (lattice_bound), so both products and their difference fit 64 bits.
 inline std::int64_t cross(Point a, Point b, Point c) {
@@ -16,7 +18,7 @@ inline std::int64_t squared_length(Point d) { return d.x * d.x + d.y * d.y; }
 
 /// Distance of a point to a closed segment as an exact square: numerator / denominator (denominator > 0).
 struct SquaredDistance {
-    __int128 numerator;
+    Int128 numerator;
     std::int64_t denominator;
     double value() const { return static_cast<double>(numerator) / static_cast<double>(denominator); }
 };

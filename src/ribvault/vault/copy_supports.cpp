@@ -9,7 +9,7 @@ namespace {
 struct Meeting {
     std::int64_t numerator, denominator;  ///< 0 <= numerator <= denominator
     bool operator<(const Meeting& o) const {
-        return static_cast<__int128>(numerator) * o.denominator < static_cast<__int128>(o.numerator) * denominator;
+        return static_cast<Int128>(numerator) * o.denominator < static_cast<Int128>(o.numerator) * denominator;
     }
     Point on(const Segment& s) const {
         const double t = static_cast<double>(numerator) / static_cast<double>(denominator);

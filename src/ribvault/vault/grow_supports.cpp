@@ -110,7 +110,7 @@ private:
             const Point c = centre(cells_[k].box);
             const double nearest = std::sqrt(boundary_.edges.nearest(c).distance.value()) - half_diagonal(cells_[k].box);
             const auto bound = static_cast<std::int64_t>(std::max(0.0, nearest));
-            queue.push({{static_cast<__int128>(bound) * bound, 1}, 0, c, static_cast<std::int64_t>(k)});
+            queue.push({{static_cast<Int128>(bound) * bound, 1}, 0, c, static_cast<std::int64_t>(k)});
         }
         const Unit pitch = settings_.sampling_pitch;
         while (!queue.empty()) {
