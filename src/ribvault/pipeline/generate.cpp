@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "ribvault/error.hpp"
+#include "ribvault/mesh/orient_mesh.hpp"
 #include "ribvault/mesh/read_mesh.hpp"
 #include "ribvault/output_file.hpp"
 #include "ribvault/pipeline/layer_spool.hpp"
@@ -63,6 +64,11 @@ private:
         mesh_ = read_mesh(job_.model);
         report_.placement = place(mesh_, job_.placement);
         report_.input = examine(mesh_, report_.placement);
+        if (report_.input.unbalanced_edges == 0) return;
+        if (const std::size_t turned = orient_consistently(mesh_); turned > 0) {
+            job_.warn(job_.model.string() + ": " + std::to_string(turned) + " triangles faced the wrong way and were turned over");
+            report_.input = examine(mesh_, report_.placement);
+        }
     }
 
     void check_layers(const Slicer& slicer) {
