@@ -1,0 +1,178 @@
+#include "ribvault/report/layer_svg.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "ribvault/report/svg_path.hpp"
+
+namespace ribvault {
+namespace {
+
+constexpr double margin = 1;  // mm around the outermost contour
+
+constexpr std::string_view shell_style = R"(fill="#bbb" fill-rule="evenodd")";
+constexpr std::string_view track_style =
+    R"(fill="none" stroke="#56b4e9" stroke-linecap="round" stroke-linejoin="round")";
+constexpr std::string_view unsupported_style = R"(fill="#d00000" fill-opacity=".35")";
+constexpr std::string_view line_style = R"(fill="none" stroke="#003a5c" stroke-width=".05")";
+constexpr std::string_view root_style = R"(stroke="#0072b2" stroke-linecap="square")";
+constexpr std::string_view junction_style = R"(stroke="#e69f00" stroke-linecap="round")";
+constexpr std::string_view tip_style = R"(fill="#000")";
+
+void append_element(std::string& svg, std::string_view style, const std::string& data, double stroke_width = 0) {
+    if (data.empty()) return;
+    svg.append("<path ").append(style);
+    if (stroke_width > 0) svg.append(" stroke-width=\"").append(svg_number(stroke_width)).append("\"");
+    svg.append(" d=\"").append(data).append("\"/>\n");
+}
+
+/// Roots, junctions and tips of a forest.
+struct Marks {
+    std::string roots, junctions, tips;
+};
+
+/// A diamond of the given half-diagonal.
+void append_diamond(std::string& data, double x, double y, double half) {
+    const std::string h = svg_number(half);
+    data.append("M").append(svg_number(x - half)).append(" ").append(svg_number(y));
+    data.append("l" + h + "-" + h + " " + h + " " + h + "-" + h + " " + h + "z");
+}
+
+Marks marks_of(const SupportForest& forest, Unit nozzle) {
+    Marks marks;
+    for (auto [v, end] = vertices(forest); v != end; ++v) {
+        const Point p = forest[*v].at;
+        if (forest[*v].root)
+            append_dot(marks.roots, p);
+        else if (out_degree(*v, forest) == 1)
+            append_diamond(marks.tips, to_mm(p.x), -to_mm(p.y), 0.35 * to_mm(nozzle));
+        if (out_degree(*v, forest) >= 3) append_dot(marks.junctions, p);
+    }
+    return marks;
+}
+
+std::string caption(const LayerDrawing& d) {
+    const auto fixed = [](double value, int places) {
+        char text[32];
+        return std::string(text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, places).ptr);
+    };
+    return "layer " + std::to_string(d.layer) + ", z " + fixed(d.z_mm, 2) + " mm, supports " +
+           fixed(d.support_length_mm, 1) + " mm";
+}
+
+std::string svg_start(double x, double y, double width, double height, double pixels_per_mm) {
+    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"";
+    svg.append(svg_number(x) + " " + svg_number(y) + " " + svg_number(width) + " " + svg_number(height) +
+               "\" width=\"");
+    svg.append(svg_number(std::round(width * pixels_per_mm)) + "\" height=\"" +
+               svg_number(std::round(height * pixels_per_mm)) + "\">\n");
+    svg.append("<rect x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" width=\"" + svg_number(width) +
+               "\" height=\"" + svg_number(height) + "\" fill=\"#fff\"/>\n");
+    return svg;
+}
+
+void append_text(std::string& svg, double x, double y, double size, const std::string& text) {
+    svg.append("<text x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" font-family=\"sans-serif\" font-size=\"" +
+               svg_number(size) + "\">" + text + "</text>\n");
+}
+
+/// A bar of 10 mm with its label to the right; y is the bar's.
+void append_scale_bar(std::string& svg, double x, double y, double size) {
+    svg.append("<path fill=\"none\" stroke=\"#000\" stroke-width=\"" + svg_number(0.15 * size) + "\" d=\"M" +
+               svg_number(x) + " " + svg_number(y) + "h10\"/>\n");
+    append_text(svg, x + 10 + 0.5 * size, y + 0.35 * size, size, "10 mm");
+}
+
+/// What the marks mean, in one row; y is its base line.
+void append_legend(std::string& svg, double x, double y, double size) {
+    const double middle = y - 0.35 * size;
+    const auto swatch = [&](std::string_view style, double width, double offset, const std::string& name) {
+        std::string data("M");
+        data.append(svg_number(x + offset + 0.3 * size)).append(" ").append(svg_number(middle)).append("h");
+        data.append(width > 0.9 * size ? svg_number(0.8 * size) : "0");
+        append_element(svg, style, data, width);
+        append_text(svg, x + offset + 1.6 * size, y, size, name);
+    };
+    swatch(R"(stroke="#bbb")", size, 0, "shell");
+    swatch(R"(stroke="#56b4e9")", size, 5.5 * size, "track");
+    swatch(R"(stroke="#d00000" stroke-opacity=".35")", size, 11 * size, "was unsupported");
+    swatch(root_style, 0.7 * size, 21.5 * size, "root");
+    swatch(junction_style, 0.8 * size, 26 * size, "junction");
+    std::string tip;
+    append_diamond(tip, x + 33.3 * size, middle, 0.45 * size);
+    append_element(svg, tip_style, tip);
+    append_text(svg, x + 34.3 * size, y, size, "tip");
+}
+
+}  // namespace
+
+LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportForest& forest,
+                        const Region& unsupported, const Settings& settings) {
+    LayerDrawing d;
+    d.layer = slice.layer;
+    d.z_mm = slice.layer == 0 ? to_mm(settings.first_layer_height) / 2
+                              : to_mm(settings.first_layer_height) + (slice.layer - 0.5) * to_mm(settings.layer_height);
+    d.box = bounding_box(slice.rounded);
+    for (auto [e, end] = edges(forest); e != end; ++e)
+        d.support_length_mm += length(forest[target(*e, forest)].at - forest[source(*e, forest)].at) / units_per_mm;
+
+    const double nozzle = to_mm(settings.nozzle);
+    const std::string tracks = track_data(forest);
+    const Marks marks = marks_of(forest, settings.nozzle);
+    append_element(d.marks, shell_style, region_data(slice.rounded) + region_data(cavity));
+    append_element(d.marks, track_style, tracks, nozzle);
+    append_element(d.marks, unsupported_style, region_data(unsupported));
+    append_element(d.marks, line_style, tracks);
+    append_element(d.marks, root_style, marks.roots, 0.6 * nozzle);
+    append_element(d.marks, junction_style, marks.junctions, 0.8 * nozzle);
+    append_element(d.marks, tip_style, marks.tips);
+    return d;
+}
+
+std::string layer_svg(const LayerDrawing& drawing) {
+    Box box = drawing.box;
+    if (box.empty()) box.add({0, 0});
+    const double size = std::max(30.0, to_mm(box.hi.x - box.lo.x)) / 45;
+    const double left = to_mm(box.lo.x) - margin, top = -to_mm(box.hi.y) - margin;
+    const double width = std::max(to_mm(box.hi.x - box.lo.x) + 2 * margin, 38 * size);
+    const double bottom = -to_mm(box.lo.y) + margin;
+    std::string svg = svg_start(left, top, width, bottom + 5 * size - top, 20);
+    svg.append("<title>" + caption(drawing) + "</title>\n" + drawing.marks);
+    append_scale_bar(svg, left + margin, bottom + 0.8 * size, size);
+    append_text(svg, left + margin, bottom + 2.7 * size, size, caption(drawing));
+    append_legend(svg, left + margin, bottom + 4.4 * size, 0.9 * size);
+    svg += "</svg>\n";
+    return svg;
+}
+
+std::string layer_svg(const Slice& slice, const Region& cavity, const SupportForest& forest, const Region& unsupported,
+                      const Settings& settings) {
+    return layer_svg(draw_layer(slice, cavity, forest, unsupported, settings));
+}
+
+std::string overview_svg(const std::vector<LayerDrawing>& drawings, int columns) {
+    Box box;
+    for (const LayerDrawing& d : drawings)
+        if (!d.box.empty()) box.add(d.box.lo), box.add(d.box.hi);
+    if (box.empty()) box.add({0, 0});
+    const double size = std::max(20.0, to_mm(box.hi.x - box.lo.x)) / 24;
+    const double width = std::max(to_mm(box.hi.x - box.lo.x) + 2 * margin, 25 * size);
+    const double height = to_mm(box.hi.y - box.lo.y) + 2 * margin + 2 * size;
+    const int count = static_cast<int>(drawings.size()), rows = std::max(1, (count + columns - 1) / columns);
+    const int across = std::clamp(count, 1, columns);
+    std::string svg = svg_start(0, 0, across * width, rows * height + 2 * size, 1600 / (across * width));
+    for (int i = 0; i < count; ++i) {
+        const LayerDrawing& d = drawings[static_cast<std::size_t>(i)];
+        const double x = i % columns * width, y = i / columns * height;
+        svg.append("<g transform=\"translate(" + svg_number(x + margin - to_mm(box.lo.x)) + " " +
+                   svg_number(y + margin + to_mm(box.hi.y)) + ")\">\n" + d.marks + "</g>\n");
+        append_text(svg, x + margin, y + height - size, 0.9 * size, caption(d));
+    }
+    append_scale_bar(svg, margin, rows * height + 0.6 * size, 0.9 * size);
+    svg += "</svg>\n";
+    return svg;
+}
+
+}  // namespace ribvault

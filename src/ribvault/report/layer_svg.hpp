@@ -1,0 +1,39 @@
+// Pictures of layers: shell, tracks with their true width, and what the supports are made of.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ribvault/settings.hpp"
+#include "ribvault/slice/slice.hpp"
+#include "ribvault/vault/support_forest.hpp"
+
+namespace ribvault {
+
+/// One layer drawn, apart from the layer's geometry, so that pictures can be put together after the layer is gone.
+struct LayerDrawing {
+    int layer = 0;
+    double z_mm = 0;               ///< z_i, the plane of the slice
+    double support_length_mm = 0;  ///< centre lines
+    Box box;                       ///< what the drawing covers, lattice units, y upwards
+    std::string marks;             ///< SVG elements, in mm, y downwards (the bed's y is negated)
+};
+
+/// Draws layer i. The shell B_i (slice without cavity) is grey; every track of S_i has its true width d, with round
+/// ends and its centre line; roots are blue squares, junctions (valence 3 or more) orange discs, tips black diamonds.
+/// `unsupported`, what of layer i + 1 had no support before S_i grew, is translucent red; it may be empty. The colours
+/// differ in lightness, too (Okabe and Ito's palette). Precondition: the cavity lies inside the slice. Coordinates are
+/// rounded to 1 µm.
+LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportForest& forest,
+                        const Region& unsupported, const Settings& settings);
+
+/// One layer as an SVG file with a scale bar, a legend and a caption; one unit is one mm.
+std::string layer_svg(const LayerDrawing& drawing);
+std::string layer_svg(const Slice& slice, const Region& cavity, const SupportForest& forest, const Region& unsupported,
+                      const Settings& settings);
+
+/// A contact sheet: the drawings in rows of `columns`, left to right, all at one scale and in the same frame of the
+/// bed, each with its caption. Precondition: columns > 0.
+std::string overview_svg(const std::vector<LayerDrawing>& drawings, int columns);
+
+}  // namespace ribvault

@@ -1,0 +1,23 @@
+// Geometry as the data of SVG paths: mm, y downwards, three decimals at most, relative where that is shorter.
+#pragma once
+
+#include <string>
+
+#include "ribvault/vault/support_forest.hpp"
+
+namespace ribvault {
+
+/// A number with at most three decimals and no more characters than it needs: .4, -1.25, 20.
+std::string svg_number(double value);
+
+/// Closed contours.
+std::string region_data(const Region& region);
+
+/// All tracks of a forest, one polyline per branch-free chain; an isolated vertex is a line of no length, which round
+/// line ends make a disc.
+std::string track_data(const SupportForest& forest);
+
+/// Appends a line of no length at a point.
+void append_dot(std::string& data, Point at);
+
+}  // namespace ribvault

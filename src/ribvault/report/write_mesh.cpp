@@ -1,0 +1,144 @@
+#include "ribvault/report/write_mesh.hpp"
+
+#include <zip.h>
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "ribvault/error.hpp"
+
+namespace ribvault {
+namespace {
+
+using Corner = std::array<float, 3>;
+constexpr std::size_t facet_bytes = 50, corner_bytes = sizeof(Corner);
+
+void append_facet(const Corner& a, const Corner& b, const Corner& c, std::string& facets) {
+    std::array<char, facet_bytes> record{};  // the normal may be left zero: readers compute it
+    std::memcpy(record.data() + corner_bytes, a.data(), corner_bytes);
+    std::memcpy(record.data() + 2 * corner_bytes, b.data(), corner_bytes);
+    std::memcpy(record.data() + 3 * corner_bytes, c.data(), corner_bytes);
+    facets.append(record.data(), record.size());
+}
+
+void append_box(const std::array<Corner, 4>& floor, float top, std::string& facets) {
+    std::array<Corner, 4> roof = floor;
+    for (Corner& corner : roof) corner[2] = top;
+    append_facet(floor[0], floor[2], floor[1], facets);
+    append_facet(floor[0], floor[3], floor[2], facets);
+    append_facet(roof[0], roof[1], roof[2], facets);
+    append_facet(roof[0], roof[2], roof[3], facets);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t next = (k + 1) % 4;
+        append_facet(floor[k], floor[next], roof[next], facets);
+        append_facet(floor[k], roof[next], roof[k], facets);
+    }
+}
+
+struct DropArchive {
+    void operator()(zip_t* archive) const { zip_discard(archive); }
+};
+
+[[noreturn]] void fail_to_pack() {
+    throw Error(ErrorKind::cannot_write, "the walls cannot be packed as 3MF; write them as .stl");
+}
+
+void add_entry(zip_t* archive, const char* name, const std::string& content) {
+    zip_source_t* source = zip_source_buffer(archive, content.data(), content.size(), 0);
+    if (!source) fail_to_pack();
+    const zip_int64_t index = zip_file_add(archive, name, source, ZIP_FL_ENC_UTF_8);
+    if (index < 0) {
+        zip_source_free(source);
+        fail_to_pack();
+    }
+    // The same walls give the same bytes: no time of day in the package (1980 is the format's zero).
+    zip_file_set_dostime(archive, static_cast<zip_uint64_t>(index), 0, 0x21, 0);
+}
+
+std::string model_xml(const std::string& facets) {
+    std::string vertices, triangles;
+    char line[128];
+    for (std::size_t at = 0, corner = 0; at < facets.size(); at += facet_bytes) {
+        for (std::size_t k = 1; k <= 3; ++k) {
+            Corner c;
+            std::memcpy(c.data(), facets.data() + at + k * corner_bytes, corner_bytes);
+            std::snprintf(line, sizeof line, "<vertex x=\"%.9g\" y=\"%.9g\" z=\"%.9g\"/>\n", c[0], c[1], c[2]);
+            vertices += line;
+        }
+        std::snprintf(line, sizeof line, "<triangle v1=\"%zu\" v2=\"%zu\" v3=\"%zu\"/>\n", corner, corner + 1,
+                      corner + 2);
+        triangles += line;
+        corner += 3;
+    }
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" "
+           "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n<resources><object id=\"1\" "
+           "type=\"model\"><mesh>\n<vertices>\n" +
+           vertices + "</vertices>\n<triangles>\n" + triangles +
+           "</triangles>\n</mesh></object></resources>\n<build><item objectid=\"1\"/></build>\n</model>\n";
+}
+
+}  // namespace
+
+void append_walls(const SupportForest& forest, Unit bottom, Unit top, const Settings& settings, std::string& facets) {
+    for (auto [e, end] = edges(forest); e != end; ++e) {
+        const Point a = forest[source(*e, forest)].at, b = forest[target(*e, forest)].at;
+        const double l = length(b - a), half = 0.5 * static_cast<double>(settings.nozzle);
+        const double nx = -static_cast<double>(b.y - a.y) / l * half, ny = static_cast<double>(b.x - a.x) / l * half;
+        const auto corner = [&](Point p, double side) {
+            return Corner{static_cast<float>((static_cast<double>(p.x) + side * nx) / units_per_mm),
+                          static_cast<float>((static_cast<double>(p.y) + side * ny) / units_per_mm),
+                          static_cast<float>(to_mm(bottom))};
+        };
+        append_box({corner(a, -1), corner(b, -1), corner(b, 1), corner(a, 1)}, static_cast<float>(to_mm(top)), facets);
+    }
+}
+
+std::string stl_header(std::uint32_t facets) {
+    std::string header = "ribvault: ribbed supports as solids, in mm";
+    header.resize(80, ' ');
+    for (int shift = 0; shift < 32; shift += 8) header += static_cast<char>(facets >> shift & 0xff);
+    return header;
+}
+
+std::string walls_3mf(const std::string& facets) {
+    const std::string model = model_xml(facets);
+    const std::string types =
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Types "
+        "xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">"
+        "<Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>"
+        "<Default Extension=\"model\" "
+        "ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/></Types>\n";
+    const std::string relations =
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Relationships "
+        "xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">"
+        "<Relationship Target=\"/3D/3dmodel.model\" Id=\"rel0\" "
+        "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>\n";
+    zip_error_t error;
+    zip_error_init(&error);
+    zip_source_t* buffer = zip_source_buffer_create(nullptr, 0, 0, &error);
+    if (!buffer) fail_to_pack();
+    std::unique_ptr<zip_t, DropArchive> archive(zip_open_from_source(buffer, ZIP_TRUNCATE, &error));
+    if (!archive) {
+        zip_source_free(buffer);
+        fail_to_pack();
+    }
+    zip_source_keep(buffer);
+    const std::unique_ptr<zip_source_t, decltype(&zip_source_free)> keep(buffer, &zip_source_free);
+    add_entry(archive.get(), "[Content_Types].xml", types);
+    add_entry(archive.get(), "_rels/.rels", relations);
+    add_entry(archive.get(), "3D/3dmodel.model", model);
+    if (zip_close(archive.release()) != 0) fail_to_pack();
+    if (zip_source_open(buffer) != 0) fail_to_pack();
+    zip_stat_t stat;
+    if (zip_source_stat(buffer, &stat) != 0) fail_to_pack();
+    std::string package(stat.size, '\0');
+    const bool whole =
+        zip_source_read(buffer, package.data(), package.size()) == static_cast<zip_int64_t>(package.size());
+    zip_source_close(buffer);
+    if (!whole) fail_to_pack();
+    return package;
+}
+
+}  // namespace ribvault
