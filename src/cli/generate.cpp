@@ -4,6 +4,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
+#include "ribvault/error.hpp"
 #include "ribvault/pipeline/generate.hpp"
 
 namespace ribvault::cli {
