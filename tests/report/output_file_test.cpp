@@ -1,4 +1,6 @@
 // Files appear complete or not at all, and every failure is told.
+#include "ribvault/output_file.hpp"
+
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -12,7 +14,6 @@
 
 #include "report/scratch_folder.hpp"
 #include "ribvault/error.hpp"
-#include "ribvault/output_file.hpp"
 
 using namespace ribvault;
 using test::ScratchFolder;

@@ -98,12 +98,12 @@ void append_legend(std::string& svg, double x, double y, double size) {
     swatch(R"(stroke="#bbb")", size, 0, "shell");
     swatch(R"(stroke="#56b4e9")", size, 5.5 * size, "track");
     swatch(R"(stroke="#d00000" stroke-opacity=".35")", size, 11 * size, "was unsupported");
-    swatch(root_style, 0.7 * size, 21.5 * size, "root");
-    swatch(junction_style, 0.8 * size, 26 * size, "junction");
+    swatch(root_style, 0.7 * size, 22.5 * size, "root");
+    swatch(junction_style, 0.8 * size, 27.5 * size, "junction");
     std::string tip;
-    append_diamond(tip, x + 33.3 * size, middle, 0.45 * size);
+    append_diamond(tip, x + 35.2 * size, middle, 0.45 * size);
     append_element(svg, tip_style, tip);
-    append_text(svg, x + 34.3 * size, y, size, "tip");
+    append_text(svg, x + 36.2 * size, y, size, "tip");
 }
 
 }  // namespace

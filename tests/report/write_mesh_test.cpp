@@ -1,0 +1,121 @@
+// Walls are closed solids of the right volume at the right height, in both formats.
+#include "ribvault/report/write_mesh.hpp"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <random>
+
+#include "print/random_forest.hpp"
+#include "report/scratch_folder.hpp"
+#include "ribvault/mesh/examine_mesh.hpp"
+#include "ribvault/mesh/read_mesh.hpp"
+
+using namespace ribvault;
+using test::ScratchFolder;
+
+namespace {
+
+constexpr Unit mm = units_per_mm;
+
+std::filesystem::path write(const std::filesystem::path& file, const std::string& bytes) {
+    std::ofstream(file, std::ios::binary) << bytes;
+    return file;
+}
+
+std::string stl(const std::string& facets) {
+    return stl_header(static_cast<std::uint32_t>(facets.size() / 50)) + facets;
+}
+
+SupportForest star() {
+    SupportForest forest(4);
+    forest[0] = {{0, 0}, true};
+    forest[1] = {{10 * mm, 0}, false}, forest[2] = {{0, 7 * mm}, false}, forest[3] = {{-3 * mm, -4 * mm}, false};
+    for (std::size_t k = 1; k < 4; ++k) add_edge(0, k, forest);
+    return forest;
+}
+
+}  // namespace
+
+TEST_CASE("every wall is a closed solid, outwards oriented, of length times width times height") {
+    std::mt19937_64 random(11);
+    for (int round = 0; round < 10; ++round) {
+        const SupportForest forest = test::random_forest(random, 4, 20, mm / 10, 3 * mm, 0);
+        std::string facets;
+        append_walls(forest, 40000, 60000, Settings(), facets);
+        REQUIRE(facets.size() % 50 == 0);
+        using Corner = std::array<float, 3>;
+        std::map<std::pair<Corner, Corner>, int> edges_used;
+        double volume = 0;
+        for (std::size_t at = 0; at < facets.size(); at += 50) {
+            std::array<Corner, 3> c;
+            std::memcpy(&c, facets.data() + at + 12, 36);
+            for (std::size_t k = 0; k < 3; ++k) {
+                CHECK((c[k][2] == 0.4f || c[k][2] == 0.6f));
+                ++edges_used[{c[k], c[(k + 1) % 3]}];
+                --edges_used[{c[(k + 1) % 3], c[k]}];
+            }
+            const auto x = [&](std::size_t k, std::size_t axis) { return static_cast<double>(c[k][axis]); };
+            volume +=
+                (x(0, 0) * (x(1, 1) * x(2, 2) - x(2, 1) * x(1, 2)) + x(0, 1) * (x(1, 2) * x(2, 0) - x(2, 2) * x(1, 0)) +
+                 x(0, 2) * (x(1, 0) * x(2, 1) - x(2, 0) * x(1, 1))) /
+                6;
+        }
+        for (const auto& [edge, balance] : edges_used) REQUIRE(balance == 0);
+        CHECK(volume == Approx(test::total_length(forest) / mm * 0.4 * 0.2).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("a wall reaches half the track's width to either side of its segment, and not beyond its ends") {
+    SupportForest forest(2);
+    forest[0] = {{0, 0}, true}, forest[1] = {{3 * mm, 4 * mm}, false};
+    add_edge(0, 1, forest);
+    std::string facets;
+    append_walls(forest, 0, 30000, Settings(), facets);
+    for (std::size_t at = 0; at < facets.size(); at += 50)
+        for (std::size_t k = 0; k < 3; ++k) {
+            float p[3];
+            std::memcpy(p, facets.data() + at + 12 + 12 * k, 12);
+            const double along = 0.6 * p[0] + 0.8 * p[1], across = 0.6 * p[1] - 0.8 * p[0];
+            CHECK(std::abs(across) == Approx(0.2).margin(1e-6));
+            CHECK((std::abs(along) < 1e-6 || std::abs(along - 5) < 1e-6));
+        }
+}
+
+TEST_CASE("STL and 3MF read back as the same solids, in mm") {
+    const ScratchFolder folder;
+    std::string facets;
+    append_walls(star(), 0, 20000, Settings(), facets);
+    append_walls(star(), 20000, 40000, Settings(), facets);
+    for (const auto& file :
+         {write(folder / "walls.stl", stl(facets)), write(folder / "walls.3mf", walls_3mf(facets))}) {
+        INFO(file);
+        const MeshFacts facts = examine(read_mesh(file), Placement());
+        CHECK(facts.triangles == facets.size() / 50);
+        CHECK(facts.closed());
+        CHECK(facts.volume_mm3 == Approx(2 * (10 + 7 + 5) * 0.4 * 0.2).epsilon(1e-4));
+        CHECK(facts.size_mm[2] == Approx(0.4));
+    }
+}
+
+TEST_CASE("the STL header is 80 bytes, does not begin with 'solid', and ends with the little-endian count") {
+    const std::string header = stl_header(0x01020304);
+    REQUIRE(header.size() == 84);
+    CHECK_FALSE(header.starts_with("solid"));
+    CHECK(header.substr(80) == std::string("\x04\x03\x02\x01"));
+}
+
+TEST_CASE("equal walls give equal files") {
+    std::string facets;
+    append_walls(star(), 0, 20000, Settings(), facets);
+    CHECK(walls_3mf(facets) == walls_3mf(facets));
+}
+
+TEST_CASE("no supports, no walls") {
+    std::string facets;
+    append_walls(SupportForest(), 0, 20000, Settings(), facets);
+    CHECK(facets.empty());
+    CHECK(walls_3mf(facets).starts_with("PK"));
+}
