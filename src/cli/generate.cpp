@@ -52,7 +52,7 @@ void add_geometry(CLI::App* command, Written& w) {
     add_length(supports, "--branch-bonus", w.branch_bonus, "its bonus (default: twice the nozzle, 4r)");
     supports->add_option("--valence-limit", s.valence_limit, "valence from which a junction has no bonus (default 4)");
     supports->add_option("--seed", s.seed, "of the ties (default 1)");
-    add_length(supports, "--pitch", w.pitch, "spacing of the points to support (default: an eighth of the nozzle)");
+    add_length(supports, "--pitch", w.pitch, "spacing of the points to support (default: a quarter of the nozzle)");
     add_length(supports, "--slack", s.slack, "what the generator keeps clear of the limit (default 0.001)");
 }
 
@@ -113,7 +113,7 @@ void complete(Written& w) {
     s.erosion_step = w.erosion_step.value_or(s.support_radius);
     s.straighten_step = w.straighten_step.value_or(s.support_radius);
     s.branch_bonus_length = w.branch_bonus.value_or(2 * s.nozzle);
-    s.sampling_pitch = w.pitch.value_or(s.nozzle / 8);
+    s.sampling_pitch = w.pitch.value_or(s.nozzle / 4);
     s.straighten = !w.no_straighten;
     s.branch_bonus = !w.no_branch_bonus;
     set_rotation(w);

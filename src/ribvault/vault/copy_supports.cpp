@@ -121,24 +121,72 @@ private:
         const Point at = above_[v].at;
         const NearestSegment::Hit hit = boundary_.edges.nearest(at);
         const double distance = std::sqrt(hit.distance.value());
+        const Point foot = place_root(nearest_point(at, boundary_.edges.segments()[hit.index]), boundary_);
         if (out_degree(own, forest) == 1) {
             const Point from = forest[*adjacent_vertices(own, forest).first].at;
             const double l = length(at - from), reach = 2 * distance + 2;
             const Segment ray{at, {at.x + round_to_lattice(static_cast<double>(at.x - from.x) / l * reach),
                                    at.y + round_to_lattice(static_cast<double>(at.y - from.y) / l * reach)}};
             find_meetings(ray, boundary_, meetings_);
-            if (!meetings_.empty()) {
+            if (!meetings_.empty() && !crosses_walls({at, meetings_.front().on(ray)}, own)) {
                 forest[own].at = place_root(meetings_.front().on(ray), boundary_);
                 forest[own].root = true;
                 return;
             }
         }
-        const Point foot = place_root(nearest_point(at, boundary_.edges.segments()[hit.index]), boundary_);
         if (squared_length(foot - at) <= root_tolerance * root_tolerance) {
             forest[own] = {foot, true};
             return;
         }
-        add(add_vertex(SupportVertex{foot, true}, forest), own, -1);
+        if (!join_wall({at, foot}, own)) add(add_vertex(SupportVertex{foot, true}, forest), own, -1);
+    }
+
+    Segment wall(SupportForest::edge_descriptor e) const {
+        return {result_.forest[source(e, result_.forest)].at, result_.forest[target(e, result_.forest)].at};
+    }
+    bool crosses_walls(const Segment& way, std::size_t from) const {
+        const SupportForest& forest = result_.forest;
+        for (auto [e, end] = edges(forest); e != end; ++e)
+            if (source(*e, forest) != from && target(*e, forest) != from && segments_touch(way, wall(*e))) return true;
+        return false;
+    }
+
+    /// When other walls stand in the way to the shell, the tree joins the nearest of them instead, if that is another tree:
+    /// this one then stands on the other's roots. Says no when the way is free, or only its own tree is in it.
+    bool join_wall(const Segment& way, std::size_t from) {
+        SupportForest& forest = result_.forest;
+        std::vector<char> own_tree(num_vertices(forest), 0);
+        std::vector<std::size_t> open{from};
+        own_tree[from] = 1;
+        while (!open.empty()) {
+            const std::size_t v = open.back();
+            open.pop_back();
+            for (auto [w, end] = adjacent_vertices(v, forest); w != end; ++w)
+                if (!own_tree[*w]) own_tree[*w] = 1, open.push_back(*w);
+        }
+        std::int64_t nearest = -1, index = 0;
+        SquaredDistance nearest_distance{0, 1};
+        SupportForest::edge_descriptor met;
+        for (auto [e, end] = edges(forest); e != end; ++e, ++index) {
+            if (own_tree[source(*e, forest)] || !segments_touch(way, wall(*e))) continue;
+            const SquaredDistance d = squared_distance(way.a, wall(*e));
+            if (nearest >= 0 && compare(d, nearest_distance) >= 0) continue;
+            nearest = index, nearest_distance = d, met = *e;
+        }
+        if (nearest < 0) return false;
+        const std::size_t a = source(met, forest), b = target(met, forest);
+        const Point at = nearest_point(way.a, wall(met));
+        std::size_t joint = at == forest[a].at ? a : b;
+        if (at != forest[a].at && at != forest[b].at) {
+            const std::int32_t origin = result_.origin[static_cast<std::size_t>(nearest)];
+            result_.origin.erase(result_.origin.begin() + nearest);
+            remove_edge(met, forest);
+            joint = add_vertex(SupportVertex{at, false}, forest);
+            add(a, joint, origin);
+            add(joint, b, origin);
+        }
+        add(joint, from, -1);
+        return true;
     }
 
     static constexpr std::size_t no_vertex = static_cast<std::size_t>(-1);

@@ -96,18 +96,12 @@ private:
                       std::hypot(x - static_cast<double>(from.x), y - static_cast<double>(from.y)) <= static_cast<double>(step_);
         }
         targets_.push_back(pn);
-        moved_.clear();
-        if (arrives)
-            moved_.push_back({p0, pn});
-        else
-            for (std::size_t k = 0; k + 1 < targets_.size(); ++k)
-                if (targets_[k] != targets_[k + 1]) moved_.push_back({targets_[k], targets_[k + 1]});
         for (const std::uint32_t w : chain_walls_) walls_[w].alive = false;
-        if (blocked()) {
-            for (const std::uint32_t w : chain_walls_) walls_[w].alive = true;
-            ++result_.blocked;
-            return;
+        if (arrives) {
+            moved_.assign(1, {p0, pn});
+            arrives = !collides(moved_.front());
         }
+        if (!arrives) keep_clear();
         for (const Segment& s : moved_) result_.left_cavity = result_.left_cavity || meets_shell(s, p0, pn);
         if (arrives) {
             add_wall(chain_.front(), chain_.back(), true);
@@ -117,17 +111,35 @@ private:
         for (std::size_t k = 0; k + 1 < chain_.size(); ++k) add_wall(chain_[k], chain_[k + 1], true);
     }
 
-    bool blocked() {
-        for (std::size_t i = 0; i < moved_.size(); ++i) {
-            const Segment& s = moved_[i];
-            Box box;
-            box.add(s.a), box.add(s.b);
-            bool hit = false;
-            grid_.visit(box, [&](std::uint32_t w) { hit = hit || (walls_[w].alive && collide(s, segment(walls_[w]))); });
-            for (std::size_t j = i + 2; !hit && j < moved_.size(); ++j) hit = collide(s, moved_[j]);
-            if (hit) return true;
+    bool collides(const Segment& s) const {
+        Box box;
+        box.add(s.a), box.add(s.b);
+        bool hit = false;
+        grid_.visit(box, [&](std::uint32_t w) { hit = hit || (walls_[w].alive && collide(s, segment(walls_[w]))); });
+        return hit;
+    }
+
+    /// Lets every vertex go to its target but those whose walls would cross another wall: they stay, and so do their
+    /// neighbours along such a wall, until nothing crosses. In the end that is the chain as it was, which crosses nothing.
+    void keep_clear() {
+        bool counted = false;
+        for (bool again = true; again;) {
+            again = false;
+            moved_.clear();
+            for (std::size_t k = 0; k + 1 < targets_.size(); ++k) moved_.push_back({targets_[k], targets_[k + 1]});
+            for (std::size_t k = 0; k < moved_.size(); ++k) {
+                bool hit = collides(moved_[k]);
+                for (std::size_t j = k + 2; !hit && j < moved_.size(); ++j) hit = collide(moved_[k], moved_[j]);
+                if (!hit) continue;
+                for (const std::size_t v : {k, k + 1}) {
+                    again = again || targets_[v] != place_[chain_[v]];
+                    targets_[v] = place_[chain_[v]];
+                }
+                result_.blocked += !counted;
+                counted = true;
+            }
         }
-        return false;
+        std::erase_if(moved_, [](const Segment& s) { return s.a == s.b; });
     }
 
     /// Does a moved wall meet the shell anywhere but at a root at the chain's ends?

@@ -9,13 +9,13 @@ namespace ribvault {
 struct StraightenedSupports {
     SupportForest forest;
     bool left_cavity = false;  ///< some moved wall meets the boundary of C_i and must be clipped again
-    int blocked = 0;           ///< chains that stayed where they were because they would have crossed another wall
+    int blocked = 0;           ///< chains some vertices of which stayed, lest they cross another wall
 };
 
 /// Every maximal chain without branches keeps its ends; each vertex between them moves by at most `step` towards the point
 /// at the same fraction of the chain's length on the chord. A chain that arrives becomes one segment. So every point of the
 /// input lies within `step` of the output. Vertices marked in `pinned` (where erosion has just taken a branch, which they
-/// alone hold up) count as ends. The supports stay planar: a chain that would cross another wall stays.
+/// alone hold up) count as ends. The supports stay planar: vertices whose walls would cross another wall stay.
 StraightenedSupports straighten_supports(const SupportForest& forest, const std::vector<char>& pinned,
                                          const CavityBoundary& boundary, Unit step);
 
