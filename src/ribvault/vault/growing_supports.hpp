@@ -15,7 +15,7 @@ class GrowingSupports {
 public:
     GrowingSupports(SupportForest forest, const Box& cavity_box, const CavityBoundary& boundary, const Settings& settings);
 
-    /// Is p within `radius` (units, at most r + ρ) of a wall?
+    /// Is p within `radius` (units, at most r + ρ) of a wall? Nothing is within a negative radius.
     bool covers(Point p, double radius) const;
 
     /// Adds the wall that Section 4.3 gives to p: to the nearest point of B_i ∪ S_i under equation (4).
