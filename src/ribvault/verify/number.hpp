@@ -1,12 +1,12 @@
 // The three number types of the verifier's predicates, and the exact points of the input in each of them.
 #pragma once
 
-#include <CGAL/CORE_Expr.h>
 #include <CGAL/Interval_nt.h>
 #include <CGAL/number_utils.h>
 
 #include "ribvault/exact/rational.hpp"
 #include "ribvault/slice/exact_polygons.hpp"
+#include "ribvault/verify/core_number.hpp"
 
 namespace ribvault::verify {
 
