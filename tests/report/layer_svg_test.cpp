@@ -85,8 +85,8 @@ struct Picture {
         std::istringstream(root.attribute("viewBox").value()) >> x >> y >> width >> height;
         title = root.child_value("title");
         for (const pugi::xml_node path : root.children("path")) {
-            const std::string stroke = path.attribute("stroke").value();
-            paths.emplace(stroke.empty() ? path.attribute("fill").value() : stroke, path.attribute("d").value());
+            const std::string fill = path.attribute("fill").value(), stroke = path.attribute("stroke").value();
+            paths.emplace(fill.empty() || fill == "none" ? stroke : fill, path.attribute("d").value());
         }
     }
     /// The first path of a colour: what is drawn comes before its legend.
@@ -104,29 +104,41 @@ Contour turned(Contour c) {
 
 constexpr Unit mm = units_per_mm;
 constexpr const char *shell = "#bbb", *tracks = "#56b4e9", *centre = "#003a5c", *roots = "#0072b2",
-                     *junctions = "#e69f00", *tips = "#000", *unsupported = "#d00000";
+                     *junctions = "#e69f00", *tips = "#000", *dots = "#cc79a7", *unsupported = "#d00000";
 
 }  // namespace
 
-TEST_CASE("a picture shows every track, root, junction and tip of random forests") {
+TEST_CASE("a picture shows every track, root, junction, tip and dot of random forests") {
     std::mt19937_64 random(5);
     for (int round = 0; round < 20; ++round) {
-        const SupportForest forest = test::random_forest(random, 6, 25, mm / 10, 3 * mm, 0.2);
+        SupportForest forest = test::random_forest(random, 6, 25, mm / 10, 3 * mm, 0.2);
+        for (int k = 0; k < round % 4; ++k) add_vertex({{k * mm, 19 * mm}, true}, forest);
         Slice slice;
         slice.layer = round;
         slice.rounded = {square(-21 * mm, 21 * mm)};
         const LayerDrawing drawing = draw_layer(slice, {square(-20 * mm, 20 * mm)}, forest, {}, Settings());
         const Picture picture(layer_svg(drawing));
-        std::size_t expected_roots = 0, expected_junctions = 0, expected_tips = 0;
+        std::size_t expected_roots = 0, expected_junctions = 0, expected_tips = 0, expected_dots = 0;
         for (auto [v, end] = vertices(forest); v != end; ++v) {
             const auto valence = out_degree(*v, forest);
-            expected_roots += forest[*v].root;
+            expected_dots += valence == 0;
+            expected_roots += valence > 0 && forest[*v].root;
             expected_junctions += valence >= 3;
             expected_tips += valence == 1 && !forest[*v].root;
         }
         CHECK(picture.first(roots).size() == expected_roots);
         CHECK(picture.first(junctions).size() == expected_junctions);
         CHECK(picture.first(tips).size() == expected_tips);
+        REQUIRE(picture.paths.count(dots) == (expected_dots > 0 ? 2 : 1));  // the legend's is the last
+        if (expected_dots > 0) CHECK(picture.first(dots).size() == expected_dots);
+        CHECK(static_cast<std::size_t>(drawing.dots) == expected_dots);
+        CHECK(static_cast<std::size_t>(drawing.roots) == expected_roots);
+        CHECK(static_cast<std::size_t>(drawing.junctions) == expected_junctions);
+        CHECK(static_cast<std::size_t>(drawing.tips) == expected_tips);
+        CHECK_THAT(layer_svg(drawing), Catch::Contains("roots " + std::to_string(expected_roots) + ", junctions " +
+                                                       std::to_string(expected_junctions) + ", tips " +
+                                                       std::to_string(expected_tips) + ", dots " +
+                                                       std::to_string(expected_dots)));
         const double length = test::total_length(forest) / mm;
         CHECK(drawing.support_length_mm == Approx(length));
         for (const char* part : {tracks, centre})
@@ -134,6 +146,37 @@ TEST_CASE("a picture shows every track, root, junction and tip of random forests
                   Approx(length).margin(0.0015 * static_cast<double>(num_edges(forest))));
         CHECK(picture.paths.count(unsupported) == 1);  // the legend's alone
     }
+}
+
+TEST_CASE("each mark lies around its vertex, in its own shape") {
+    SupportForest forest(6);
+    forest[0] = {{2 * mm, 2 * mm}, true}, forest[1] = {{8 * mm, 3 * mm}, false};
+    forest[2] = {{9 * mm, 7 * mm}, false}, forest[3] = {{12 * mm, 4 * mm}, false};
+    forest[4] = {{15 * mm, 16 * mm}, true};  // a dot
+    forest[5] = {{10 * mm, 9 * mm}, false};  // beyond the bend in vertex 2
+    add_edge(0, 1, forest), add_edge(1, 2, forest), add_edge(1, 3, forest), add_edge(2, 5, forest);
+    Slice slice;
+    slice.rounded = {square(0, 20 * mm)};
+    const Picture picture(layer_svg(slice, {square(mm, 19 * mm)}, forest, {}, Settings()));
+    const auto check = [&](const char* colour, std::size_t corners, std::vector<Place> expected) {
+        INFO(colour);
+        const auto marks = picture.first(colour);
+        REQUIRE(marks.size() == expected.size());
+        for (std::size_t m = 0; m < marks.size(); ++m) {
+            CHECK(marks[m].size() == corners);
+            Place mean{0, 0};
+            for (const Place p : marks[m]) {
+                mean.x += p.x / static_cast<double>(corners);
+                mean.y += p.y / static_cast<double>(corners);
+            }
+            CHECK(mean.x == Approx(expected[m].x).margin(0.002));
+            CHECK(mean.y == Approx(expected[m].y).margin(0.002));
+        }
+    };
+    check(roots, 2, {{2, 2}});  // "M2 -2h0" with square ends
+    check(junctions, 2, {{8, 3}});
+    check(tips, 3, {{12, 4}, {10, 9}});
+    check(dots, 4, {{15, 16}});
 }
 
 TEST_CASE("the shell is the slice without its cavity, y upwards") {

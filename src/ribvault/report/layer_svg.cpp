@@ -20,6 +20,7 @@ constexpr std::string_view line_style = R"(fill="none" stroke="#003a5c" stroke-w
 constexpr std::string_view root_style = R"(stroke="#0072b2" stroke-linecap="square")";
 constexpr std::string_view junction_style = R"(stroke="#e69f00" stroke-linecap="round")";
 constexpr std::string_view tip_style = R"(fill="#000")";
+constexpr std::string_view dot_style = R"(fill="#cc79a7" stroke="#000" stroke-width=".03")";
 
 void append_element(std::string& svg, std::string_view style, const std::string& data, double stroke_width = 0) {
     if (data.empty()) return;
@@ -28,9 +29,8 @@ void append_element(std::string& svg, std::string_view style, const std::string&
     svg.append(" d=\"").append(data).append("\"/>\n");
 }
 
-/// Roots, junctions and tips of a forest.
 struct Marks {
-    std::string roots, junctions, tips;
+    std::string roots, junctions, tips, dots;
 };
 
 /// A diamond of the given half-diagonal.
@@ -40,15 +40,33 @@ void append_diamond(std::string& data, double x, double y, double half) {
     data.append("l" + h + "-" + h + " " + h + " " + h + "-" + h + " " + h + "z");
 }
 
-Marks marks_of(const SupportForest& forest, Unit nozzle) {
+/// A triangle, point up, whose corners are `radius` from (x, y).
+void append_triangle(std::string& data, double x, double y, double radius) {
+    const double half = 0.866 * radius;
+    data.append("M").append(svg_number(x)).append(" ").append(svg_number(y - radius));
+    data.append("l").append(svg_number(half)).append(" ").append(svg_number(1.5 * radius));
+    data.append("h").append(svg_number(-2 * half)).append("z");
+}
+
+Marks marks_of(const SupportForest& forest, double nozzle, LayerDrawing& d) {
     Marks marks;
     for (auto [v, end] = vertices(forest); v != end; ++v) {
         const Point p = forest[*v].at;
-        if (forest[*v].root)
+        const auto valence = out_degree(*v, forest);
+        if (valence == 0) {
+            append_diamond(marks.dots, to_mm(p.x), -to_mm(p.y), 0.45 * nozzle);
+            ++d.dots;
+        } else if (forest[*v].root) {
             append_dot(marks.roots, p);
-        else if (out_degree(*v, forest) == 1)
-            append_diamond(marks.tips, to_mm(p.x), -to_mm(p.y), 0.35 * to_mm(nozzle));
-        if (out_degree(*v, forest) >= 3) append_dot(marks.junctions, p);
+            ++d.roots;
+        } else if (valence == 1) {
+            append_triangle(marks.tips, to_mm(p.x), -to_mm(p.y), 0.45 * nozzle);
+            ++d.tips;
+        }
+        if (valence >= 3) {
+            append_dot(marks.junctions, p);
+            ++d.junctions;
+        }
     }
     return marks;
 }
@@ -71,6 +89,11 @@ std::string svg_start(double x, double y, double width, double height, double pi
     svg.append("<rect x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" width=\"" + svg_number(width) +
                "\" height=\"" + svg_number(height) + "\" fill=\"#fff\"/>\n");
     return svg;
+}
+
+std::string counts(const LayerDrawing& d) {
+    return "roots " + std::to_string(d.roots) + ", junctions " + std::to_string(d.junctions) + ", tips " +
+           std::to_string(d.tips) + ", dots " + std::to_string(d.dots);
 }
 
 void append_text(std::string& svg, double x, double y, double size, const std::string& text) {
@@ -100,10 +123,13 @@ void append_legend(std::string& svg, double x, double y, double size) {
     swatch(R"(stroke="#d00000" stroke-opacity=".35")", size, 11 * size, "was unsupported");
     swatch(root_style, 0.7 * size, 22.5 * size, "root");
     swatch(junction_style, 0.8 * size, 27.5 * size, "junction");
-    std::string tip;
-    append_diamond(tip, x + 35.2 * size, middle, 0.45 * size);
+    std::string tip, dot;
+    append_triangle(tip, x + 35.2 * size, middle, 0.45 * size);
     append_element(svg, tip_style, tip);
     append_text(svg, x + 36.2 * size, y, size, "tip");
+    append_diamond(dot, x + 39.2 * size, middle, 0.45 * size);
+    append_element(svg, dot_style, dot);
+    append_text(svg, x + 40.2 * size, y, size, "dot");
 }
 
 }  // namespace
@@ -120,7 +146,7 @@ LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportF
 
     const double nozzle = to_mm(settings.nozzle);
     const std::string tracks = track_data(forest);
-    const Marks marks = marks_of(forest, settings.nozzle);
+    const Marks marks = marks_of(forest, nozzle, d);
     append_element(d.marks, shell_style, region_data(slice.rounded) + region_data(cavity));
     append_element(d.marks, track_style, tracks, nozzle);
     append_element(d.marks, unsupported_style, region_data(unsupported));
@@ -128,6 +154,7 @@ LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportF
     append_element(d.marks, root_style, marks.roots, 0.6 * nozzle);
     append_element(d.marks, junction_style, marks.junctions, 0.8 * nozzle);
     append_element(d.marks, tip_style, marks.tips);
+    append_element(d.marks, dot_style, marks.dots);
     return d;
 }
 
@@ -136,13 +163,14 @@ std::string layer_svg(const LayerDrawing& drawing) {
     if (box.empty()) box.add({0, 0});
     const double size = std::max(30.0, to_mm(box.hi.x - box.lo.x)) / 45;
     const double left = to_mm(box.lo.x) - margin, top = -to_mm(box.hi.y) - margin;
-    const double width = std::max(to_mm(box.hi.x - box.lo.x) + 2 * margin, 38 * size);
+    const double width = std::max(to_mm(box.hi.x - box.lo.x) + 2 * margin, 40 * size + 2 * margin);
     const double bottom = -to_mm(box.lo.y) + margin;
-    std::string svg = svg_start(left, top, width, bottom + 5 * size - top, 20);
+    std::string svg = svg_start(left, top, width, bottom + 6.3 * size - top, 20);
     svg.append("<title>" + caption(drawing) + "</title>\n" + drawing.marks);
     append_scale_bar(svg, left + margin, bottom + 0.8 * size, size);
     append_text(svg, left + margin, bottom + 2.7 * size, size, caption(drawing));
-    append_legend(svg, left + margin, bottom + 4.4 * size, 0.9 * size);
+    append_text(svg, left + margin, bottom + 4.1 * size, size, counts(drawing));
+    append_legend(svg, left + margin, bottom + 5.7 * size, 0.9 * size);
     svg += "</svg>\n";
     return svg;
 }

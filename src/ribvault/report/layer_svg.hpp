@@ -15,12 +15,17 @@ struct LayerDrawing {
     int layer = 0;
     double z_mm = 0;               ///< z_i, the plane of the slice
     double support_length_mm = 0;  ///< centre lines
+    int roots = 0;                 ///< with a track
+    int junctions = 0;             ///< valence 3 or more, roots among them
+    int tips = 0;                  ///< valence 1, no root
+    int dots = 0;                  ///< isolated vertices
     Box box;                       ///< what the drawing covers, lattice units, y upwards
     std::string marks;             ///< SVG elements, in mm, y downwards (the bed's y is negated)
 };
 
 /// Draws layer i. The shell B_i (slice without cavity) is grey; every track of S_i has its true width d, with round
-/// ends and its centre line; roots are blue squares, junctions (valence 3 or more) orange discs, tips black diamonds.
+/// ends and its centre line; roots are blue squares, junctions (valence 3 or more) orange discs, tips black triangles,
+/// dots (isolated vertices) purple diamonds. A root that is a junction has both marks.
 /// `unsupported`, what of layer i + 1 had no support before S_i grew, is translucent red; it may be empty. The colours
 /// differ in lightness, too (Okabe and Ito's palette). Precondition: the cavity lies inside the slice. Coordinates are
 /// rounded to 1 µm.
