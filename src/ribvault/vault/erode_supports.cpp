@@ -58,7 +58,9 @@ ErodedSupports erode_supports(const SupportForest& forest, Unit step) {
         return static_cast<std::size_t>(vertex[v]);
     };
     for (std::size_t e = 0; e < list.size(); ++e) {
-        result.survives[e] = list[e].alive && place[list[e].a] != place[list[e].b];
+        // A tip that came to lie on its neighbour is gone; a wall that had no length before still joins two parts.
+        const bool used_up = place[list[e].a] == place[list[e].b] && forest[list[e].a].at != forest[list[e].b].at;
+        result.survives[e] = list[e].alive && !used_up;
         if (!result.survives[e]) continue;
         const std::size_t a = keep(list[e].a), b = keep(list[e].b);
         add_edge(a, b, result.forest);
