@@ -104,7 +104,7 @@ Contour turned(Contour c) {
 
 constexpr Unit mm = units_per_mm;
 constexpr const char *shell = "#bbb", *tracks = "#56b4e9", *centre = "#003a5c", *roots = "#0072b2",
-                     *junctions = "#e69f00", *tips = "#000", *dots = "#cc79a7", *unsupported = "#d00000";
+                     *junctions = "#e69f00", *tips = "#000", *dots = "#cc79a7", *unsupported = "#d55e00";
 
 }  // namespace
 

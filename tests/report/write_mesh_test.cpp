@@ -1,11 +1,15 @@
 // Walls are closed solids of the right volume at the right height, in both formats.
 #include "ribvault/report/write_mesh.hpp"
 
+#include <zip.h>
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <memory>
+#include <pugixml.hpp>
 #include <random>
 
 #include "print/random_forest.hpp"
@@ -27,6 +31,24 @@ std::filesystem::path write(const std::filesystem::path& file, const std::string
 
 std::string stl(const std::string& facets) {
     return stl_header(static_cast<std::uint32_t>(facets.size() / 50)) + facets;
+}
+
+/// The model part of a 3MF package.
+std::string model_part(const std::filesystem::path& package) {
+    int error = 0;
+    const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open(package.c_str(), ZIP_RDONLY, &error),
+                                                                 &zip_discard);
+    REQUIRE(archive);
+    CHECK(zip_name_locate(archive.get(), "[Content_Types].xml", 0) >= 0);
+    CHECK(zip_name_locate(archive.get(), "_rels/.rels", 0) >= 0);
+    zip_stat_t stat;
+    REQUIRE(zip_stat(archive.get(), "3D/3dmodel.model", 0, &stat) == 0);
+    std::string xml(stat.size, ' ');
+    zip_file_t* file = zip_fopen(archive.get(), "3D/3dmodel.model", 0);
+    REQUIRE(file);
+    CHECK(zip_fread(file, xml.data(), xml.size()) == static_cast<zip_int64_t>(xml.size()));
+    zip_fclose(file);
+    return xml;
 }
 
 SupportForest star() {
@@ -100,6 +122,42 @@ TEST_CASE("STL and 3MF read back as the same solids, in mm") {
     }
 }
 
+TEST_CASE("a 3MF is closed by its vertex numbers: each edge is used once in either direction, also where walls touch") {
+    const ScratchFolder folder;
+    std::string facets;
+    append_walls(star(), 0, 20000, Settings(), facets);
+    append_walls(star(), 20000, 40000, Settings(), facets);
+    pugi::xml_document document;
+    REQUIRE(document.load_string(model_part(write(folder / "walls.3mf", walls_3mf(facets))).c_str()));
+    const pugi::xml_node mesh = document.child("model").child("resources").child("object").child("mesh");
+    const auto vertices = mesh.child("vertices").children("vertex");
+    CHECK(std::distance(vertices.begin(), vertices.end()) == 6 * 8);
+    std::map<std::pair<int, int>, int> used;
+    for (const pugi::xml_node triangle : mesh.child("triangles").children("triangle")) {
+        const std::array<int, 3> v{triangle.attribute("v1").as_int(-1), triangle.attribute("v2").as_int(-1),
+                                   triangle.attribute("v3").as_int(-1)};
+        for (std::size_t k = 0; k < 3; ++k) {
+            CHECK(v[k] >= 0);
+            CHECK(v[k] < 6 * 8);
+            ++used[{v[k], v[(k + 1) % 3]}];
+        }
+    }
+    CHECK(used.size() == 6 * 36);
+    for (const auto& [edge, times] : used) {
+        CHECK(times == 1);
+        CHECK(used.count({edge.second, edge.first}) == 1);
+    }
+}
+
+TEST_CASE("a segment without length is no wall") {
+    SupportForest forest(3);
+    forest[0] = {{mm, mm}, true}, forest[1] = {{mm, mm}, false}, forest[2] = {{2 * mm, mm}, true};
+    add_edge(0, 1, forest);
+    std::string facets;
+    append_walls(forest, 0, 20000, Settings(), facets);
+    CHECK(facets.empty());
+}
+
 TEST_CASE("the STL header is 80 bytes, does not begin with 'solid', and ends with the little-endian count") {
     const std::string header = stl_header(0x01020304);
     REQUIRE(header.size() == 84);
@@ -117,5 +175,9 @@ TEST_CASE("no supports, no walls") {
     std::string facets;
     append_walls(SupportForest(), 0, 20000, Settings(), facets);
     CHECK(facets.empty());
-    CHECK(walls_3mf(facets).starts_with("PK"));
+    const ScratchFolder folder;
+    pugi::xml_document document;
+    REQUIRE(document.load_string(model_part(write(folder / "walls.3mf", walls_3mf(facets))).c_str()));
+    CHECK_FALSE(document.child("model").child("resources").child("object"));
+    CHECK_FALSE(document.child("model").child("build").child("item"));
 }

@@ -15,7 +15,7 @@ constexpr double margin = 1;  // mm around the outermost contour
 constexpr std::string_view shell_style = R"(fill="#bbb" fill-rule="evenodd")";
 constexpr std::string_view track_style =
     R"(fill="none" stroke="#56b4e9" stroke-linecap="round" stroke-linejoin="round")";
-constexpr std::string_view unsupported_style = R"(fill="#d00000" fill-opacity=".35")";
+constexpr std::string_view unsupported_style = R"(fill="#d55e00" fill-opacity=".45")";
 constexpr std::string_view line_style = R"(fill="none" stroke="#003a5c" stroke-width=".05")";
 constexpr std::string_view root_style = R"(stroke="#0072b2" stroke-linecap="square")";
 constexpr std::string_view junction_style = R"(stroke="#e69f00" stroke-linecap="round")";
@@ -120,7 +120,7 @@ void append_legend(std::string& svg, double x, double y, double size) {
     };
     swatch(R"(stroke="#bbb")", size, 0, "shell");
     swatch(R"(stroke="#56b4e9")", size, 5.5 * size, "track");
-    swatch(R"(stroke="#d00000" stroke-opacity=".35")", size, 11 * size, "was unsupported");
+    swatch(R"(stroke="#d55e00" stroke-opacity=".45")", size, 11 * size, "was unsupported");
     swatch(root_style, 0.7 * size, 22.5 * size, "root");
     swatch(junction_style, 0.8 * size, 27.5 * size, "junction");
     std::string tip, dot;

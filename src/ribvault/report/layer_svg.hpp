@@ -25,10 +25,10 @@ struct LayerDrawing {
 
 /// Draws layer i. The shell B_i (slice without cavity) is grey; every track of S_i has its true width d, with round
 /// ends and its centre line; roots are blue squares, junctions (valence 3 or more) orange discs, tips black triangles,
-/// dots (isolated vertices) purple diamonds. A root that is a junction has both marks.
-/// `unsupported`, what of layer i + 1 had no support before S_i grew, is translucent red; it may be empty. The colours
-/// differ in lightness, too (Okabe and Ito's palette). Precondition: the cavity lies inside the slice. Coordinates are
-/// rounded to 1 µm.
+/// dots (isolated vertices) purple diamonds. A root that is a junction has both marks. `unsupported`, what of layer
+/// i + 1 had no support before S_i grew, is translucent vermilion; it may be empty. Marks differ in shape, and the
+/// colours are told apart without red and green (Okabe and Ito's palette). Precondition: the cavity lies inside the
+/// slice. Coordinates are rounded to 1 µm.
 LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportForest& forest,
                         const Region& unsupported, const Settings& settings);
 
