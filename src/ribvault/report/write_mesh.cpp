@@ -72,7 +72,7 @@ void add_entry(zip_t* archive, const char* name, const std::string& content) {
         zip_source_free(source);
         fail_to_pack();
     }
-    // Level 1: a third larger than at the default level (the kitten's walls: 6.7 MB, not 5.1), but seconds faster.
+    // libzip's default is zlib's level 9. Level 1 on 42 MB of XML: 6.7 MB in 0.16 s instead of 5.1 MB in 4.3 s.
     zip_set_file_compression(archive, static_cast<zip_uint64_t>(index), ZIP_CM_DEFLATE, 1);
     // The same walls give the same bytes: no time of day in the package (1980 is the format's zero).
     zip_file_set_dostime(archive, static_cast<zip_uint64_t>(index), 0, 0x21, 0);
