@@ -67,7 +67,7 @@ TEST_CASE("placed meshes stand on the bed exactly, in its middle, whatever the t
         }
 }
 
-TEST_CASE("--height is met exactly") {
+TEST_CASE("the option --height is met exactly") {
     for (const char up : {'x', 'y', 'z'})
         for (const int degrees : {0, 90, 45}) {
             Mesh mesh = awkward();

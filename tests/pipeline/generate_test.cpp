@@ -1,0 +1,217 @@
+#include "ribvault/pipeline/generate.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+
+#include "ribvault/error.hpp"
+
+using namespace ribvault;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Folder {
+    fs::path path;
+    Folder() {
+        std::string name = (fs::temp_directory_path() / "ribvault-generate-XXXXXX").string();
+        path = mkdtemp(name.data());
+    }
+    ~Folder() { fs::remove_all(path); }
+    fs::path file(const std::string& name, const std::string& content) const {
+        std::ofstream(path / name, std::ios::binary) << content;
+        return path / name;
+    }
+};
+
+std::string read(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// OFF text of a solid of revolution about z with rings of given radii at given heights, closed above and below.
+std::string revolution(const std::vector<std::pair<double, double>>& profile, int corners, double turn) {
+    std::string vertices, faces;
+    const int rings = static_cast<int>(profile.size());
+    for (const auto& [radius, z] : profile)
+        for (int k = 0; k < corners; ++k) {
+            const double a = turn + 2 * M_PI * k / corners;
+            vertices += std::to_string(radius * std::cos(a)) + ' ' + std::to_string(radius * std::sin(a)) + ' ' + std::to_string(z) + '\n';
+        }
+    int count = 0;
+    for (int i = 0; i + 1 < rings; ++i)
+        for (int k = 0; k < corners; ++k, ++count) {
+            const int a = i * corners + k, b = i * corners + (k + 1) % corners;
+            faces += "4 " + std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(b + corners) + ' ' + std::to_string(a + corners) + '\n';
+        }
+    std::string floor = std::to_string(corners), roof = floor;
+    for (int k = 0; k < corners; ++k) {
+        floor += ' ' + std::to_string(corners - 1 - k);
+        roof += ' ' + std::to_string((rings - 1) * corners + k);
+    }
+    return "OFF\n" + std::to_string(rings * corners) + ' ' + std::to_string(count + 2) + " 0\n" + vertices + faces + floor + '\n' + roof + '\n';
+}
+
+/// A random solid of the kind that needs supports: narrowing and widening rings, a flat or pointed roof.
+std::string random_solid(std::mt19937_64& random) {
+    const auto between = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
+    std::vector<std::pair<double, double>> profile;
+    double z = 0;
+    for (int ring = 0; ring < 5; ++ring, z += between(0.8, 2.5)) profile.push_back({between(1.5, 6), z});
+    return revolution(profile, 3 + static_cast<int>(random() % 12), between(0, 1));
+}
+
+Job job_for(const fs::path& model) {
+    Job job;
+    job.model = model;
+    return job;
+}
+
+void check_refused(const Job& job, ErrorKind kind, const std::string& fragment) {
+    try {
+        generate(job);
+        FAIL("not refused: " << fragment);
+    } catch (const Error& e) {
+        CHECK(e.kind() == kind);
+        CHECK_THAT(e.what(), Catch::Contains(fragment));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("the 20 mm cube is proved, its shell exact, its material near the paper's 1248 mm3") {
+    Job job = job_for(RIBVAULT_CORPUS "/../../experiments/models/cube20.stl");
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        job.settings.seed = seed;
+        const RunReport report = generate(job);
+        CHECK(report.verdict.proved);
+        CHECK(report.layers.size() == 100);
+        CHECK(report.verdict.external_overhangs.empty());
+        // 8000 - 98 layers of a 19.2 mm square; the cavity is 30 nm smaller on each side.
+        CHECK(report.totals.shell_volume_mm3 == Approx(8000 - 98 * 19.2 * 19.2 * 0.2).epsilon(1e-4));
+        CHECK(report.totals.material_mm3 > 1200);
+        CHECK(report.totals.material_mm3 < 1300);
+    }
+}
+
+TEST_CASE("without straightening the cube's supports are at least 1.4 times as long") {
+    Job job = job_for(RIBVAULT_CORPUS "/../../experiments/models/cube20.stl");
+    const double with = generate(job).totals.support_printed_length_mm;
+    job.settings.straighten = false;
+    const RunReport without = generate(job);
+    CHECK(without.verdict.proved);
+    CHECK(without.totals.support_printed_length_mm >= 1.4 * with);
+}
+
+TEST_CASE("random solids end proved under random settings") {
+    const Folder folder;
+    std::mt19937_64 random(20190614);
+    for (int round = 0; round < 24; ++round) {
+        Job job = job_for(folder.file("solid.off", random_solid(random)));
+        job.settings.seed = random();
+        job.settings.top_layers = static_cast<int>(random() % 3);
+        job.settings.bottom_layers = static_cast<int>(random() % 3);
+        job.settings.straighten = random() % 4 != 0;
+        job.settings.branch_bonus = random() % 4 != 0;
+        if (round % 3 == 1) job.settings.support_radius = 12000, job.settings.erosion_step = job.settings.straighten_step = 12000;
+        if (round % 3 == 2) job.settings.support_radius = 30000, job.settings.erosion_step = job.settings.straighten_step = 30000;
+        if (round % 4 == 3) job.settings.sampling_pitch = 4000;
+        const RunReport report = generate(job);
+        INFO("round " << round);
+        CHECK(report.verdict.proved);
+        CHECK(report.verdict.layers_proved == static_cast<int>(report.layers.size()));
+    }
+}
+
+TEST_CASE("same input, settings and seed give the same bytes for any number of threads") {
+    const Folder folder;
+    std::mt19937_64 random(3);
+    Job job = job_for(folder.file("solid.off", random_solid(random)));
+    std::string gcode, walls, picture;
+    for (const int threads : {1, 2, 4}) {
+        job.threads = threads;
+        job.gcode = folder.path / "a.gcode", job.mesh = folder.path / "a.3mf", job.svg = folder.path / "svg";
+        generate(job);
+        if (gcode.empty()) {
+            gcode = read(*job.gcode), walls = read(*job.mesh), picture = read(*job.svg / "layer_00002.svg");
+            CHECK_THAT(gcode, Catch::Contains(";LAYER:0") && Catch::Contains(";TYPE:"));
+            CHECK(gcode.find(";LAYER:0") < gcode.find(";LAYER:1"));
+            CHECK_FALSE(picture.empty());
+        } else {
+            CHECK(read(*job.gcode) == gcode);
+            CHECK(read(*job.mesh) == walls);
+            CHECK(read(*job.svg / "layer_00002.svg") == picture);
+        }
+    }
+    job.settings.seed = 2;
+    generate(job);
+    CHECK(read(*job.gcode) != gcode);
+}
+
+TEST_CASE("an interrupted run leaves nothing behind and keeps what was there") {
+    const Folder folder;
+    std::mt19937_64 random(5);
+    Job job = job_for(folder.file("solid.off", random_solid(random)));
+    job.gcode = folder.file("a.gcode", "what the user had");
+    job.report = folder.path / "a.json";
+    int layers = 0;
+    job.progress = [&](int done, int) { layers = done; };
+    job.stop = [&] { return layers >= 3; };
+    check_refused(job, ErrorKind::interrupted, "interrupted");
+    CHECK(read(*job.gcode) == "what the user had");
+    CHECK_FALSE(fs::exists(*job.report));
+    CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator{}) == 2);
+}
+
+TEST_CASE("bad input has its own error each") {
+    const Folder folder;
+    check_refused(job_for(folder.path / "missing.stl"), ErrorKind::unreadable, "missing.stl");
+    check_refused(job_for(folder.file("empty.stl", "")), ErrorKind::unreadable, "empty");
+    const std::string closed = revolution({{5, 0}, {5, 5}}, 4, 0);
+    // Without its roof the mesh is open over its whole width.
+    std::string open = closed.substr(0, closed.rfind("\n4 ") + 1);
+    open.replace(open.find(" 6 0"), 4, " 5 0");
+    check_refused(job_for(folder.file("open.off", open)), ErrorKind::bad_geometry, "open");
+    Job large = job_for(folder.file("large.off", closed));
+    large.placement.scale = Rational(100);
+    check_refused(large, ErrorKind::does_not_fit, "bed");
+    Job nowhere = job_for(folder.file("solid.off", closed));
+    nowhere.gcode = folder.path / "no" / "such" / "folder" / "a.gcode";
+    check_refused(nowhere, ErrorKind::cannot_write, "a.gcode");
+    if (fs::exists("/dev/full")) {
+        Job full = job_for(folder.path / "solid.off");
+        full.gcode = "/dev/full";
+        check_refused(full, ErrorKind::cannot_write, "/dev/full");
+    }
+    Job settings = job_for(folder.path / "solid.off");
+    settings.settings.support_radius = 0;
+    check_refused(settings, ErrorKind::usage, "--support-radius");
+}
+
+TEST_CASE("the paper's models are proved, their shells as an independent library has them") {
+    const std::string models = RIBVAULT_MODELS;
+    if (models.empty()) {
+        WARN("no models folder (RIBVAULT_MODELS): skipped");
+        return;
+    }
+    struct Known {
+        const char *file, *scale;
+        char up;
+        double shell[4];  // k = 0 .. 3, MODEL.md
+    };
+    const Known known[] = {{"low_poly_bunny.stl", "0.5", 'z', {2175.8, 2843.9, 3502.5, 4151.4}},
+                           {"low_poly_moai.stl", "1/2.4", 'z', {2948.5, 3856.6, 4756.3, 5647.2}},
+                           {"kitten.off", "0.54271", 'y', {1331.1, 1699.4, 2065.8, 2430.0}}};
+    for (const Known& model : known)
+        for (int k = 0; k < 4; ++k) {
+            Job job = job_for(fs::path(models) / model.file);
+            job.placement.scale = parse_rational(model.scale, "scale");
+            job.placement.up = model.up;
+            job.settings.top_layers = job.settings.bottom_layers = k;
+            const RunReport report = generate(job);
+            INFO(model.file << ", k = " << k);
+            CHECK(report.verdict.proved);
+            CHECK(report.totals.shell_volume_mm3 == Approx(model.shell[k]).epsilon(0.001));
+        }
+}
