@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <map>
 #include <optional>
 
 #include "cli/commands.hpp"
@@ -45,6 +46,8 @@ void add_geometry(CLI::App* command, Written& w) {
     supports->add_option_function<std::string>(
         "--overlap", [&w](const std::string& t) { w.overlap = parse_rational(t, "--overlap"); },
         "share of a track that must rest on the layer below; rho = (1 - R) d (default 0.5)")->type_name("R")->excludes(radius);
+    supports->add_option("--strategy", s.strategy, "paper: Sections 4.1 to 4.3; thrifty: less material under the same proof (default paper)")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, Strategy>{{"paper", Strategy::paper}, {"thrifty", Strategy::thrifty}}));
     add_length(supports, "--erosion-step", w.erosion_step, "what a free tip loses per layer (default: rho)");
     supports->add_flag("--no-straighten", w.no_straighten, "leave out the straightening operator");
     add_length(supports, "--straighten-step", w.straighten_step, "how far a vertex moves per layer (default: rho)");

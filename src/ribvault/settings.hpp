@@ -8,6 +8,12 @@
 
 namespace ribvault {
 
+/// How supports propagate from layer to layer.
+enum class Strategy {
+    paper,   ///< Section 4.1: erode tips, straighten chains
+    thrifty  ///< a descent of the supports' length under the same limit (vault/shrink_supports.hpp)
+};
+
 /// What decides the geometry. Lengths in lattice units (10 nm); symbols are the paper's.
 struct Settings {
     Unit layer_height = 20000;        ///< h
@@ -18,6 +24,7 @@ struct Settings {
     int top_layers = 1;               ///< k above a layer
     int bottom_layers = 1;            ///< k below a layer
 
+    Strategy strategy = Strategy::paper;
     Unit erosion_step = 20000;     ///< how much a free tip loses per layer (Section 4.1); at most ρ keeps equation (1)
     bool straighten = true;        ///< Section 4.1, straightening operator
     Unit straighten_step = 20000;  ///< how far a vertex moves per layer
