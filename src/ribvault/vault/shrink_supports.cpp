@@ -8,7 +8,7 @@
 namespace ribvault {
 namespace {
 
-constexpr int sweeps = 6;
+constexpr int sweeps = 10;
 
 struct Vec {
     double x = 0, y = 0;
@@ -136,7 +136,7 @@ private:
             sum = sum + weight * u, weights += weight;
         }
         const Vec mean = (1 / weights) * sum;
-        return here + 1.8 * (mean - here);
+        return here + 1.0 * (mean - here);
     }
 
     double length_at(std::size_t v, Point p, std::size_t merged) const {
