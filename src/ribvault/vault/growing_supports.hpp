@@ -22,8 +22,30 @@ public:
     /// Precondition: p lies strictly inside the cavity. Postcondition: covers(p, 0) up to rounding.
     void add_wall(Point p);
 
+    /// A wall added by add_wall, from its new vertex to where it joined.
+    struct NewTip {
+        std::size_t vertex, joint;
+        std::uint32_t wall;
+    };
+    const std::vector<NewTip>& new_tips() const { return new_tips_; }
+    /// Has nothing been joined to the new vertex, and is its wall there?
+    bool is_tip(const NewTip& tip) const { return walls_[tip.wall].alive && out_degree(tip.vertex, forest_) == 1; }
+    Segment wall_of(const NewTip& tip) const { return {forest_[tip.joint].at, forest_[tip.vertex].at}; }
+    void remove(const NewTip& tip) {
+        walls_[tip.wall].alive = false;
+        remove_edge(tip.vertex, tip.joint, forest_);
+    }
+    /// Puts it back, shortened to a share of `whole`.
+    void restore(const NewTip& tip, const Segment& whole, double share) {
+        const Point d = whole.b - whole.a;
+        forest_[tip.vertex].at = {whole.a.x + round_to_lattice(share * static_cast<double>(d.x)),
+                                  whole.a.y + round_to_lattice(share * static_cast<double>(d.y))};
+        walls_[tip.wall].alive = true;
+        add_edge(tip.vertex, tip.joint, forest_);
+    }
+
     /// The supports; invalidates the object.
-    SupportForest take() { return std::move(forest_); }
+    SupportForest take();
     int added() const { return added_; }
 
 private:
@@ -34,9 +56,12 @@ private:
     Segment segment(std::uint32_t w) const { return {forest_[walls_[w].a].at, forest_[walls_[w].b].at}; }
     void enter(std::size_t a, std::size_t b);
     void connect(std::size_t a, std::size_t b);
+    void add_tip(Point p, std::size_t joint);
     bool free_way(Point from, std::size_t to) const;
     std::size_t split(std::uint32_t wall, Point near);
 
+    std::vector<NewTip> new_tips_;
+    std::size_t inherited_vertices_ = 0;
     SupportForest forest_;
     const CavityBoundary& boundary_;
     const Settings& settings_;
