@@ -138,11 +138,11 @@ void GrowingSupports::add_wall(Point p) {
 void GrowingSupports::add_tip(Point p, std::size_t joint) {
     const std::size_t tip = add_vertex(SupportVertex{p, false}, forest_);
     connect(tip, joint);
-    new_tips_.push_back({tip, joint, static_cast<std::uint32_t>(walls_.size() - 1)});
+    new_walls_.push_back({tip, joint, static_cast<std::uint32_t>(walls_.size() - 1)});
 }
 
 SupportForest GrowingSupports::take() {
-    if (settings_.strategy != Strategy::thrifty) return std::move(forest_);
+    if (!settings_.trim) return std::move(forest_);
     // Vertices whose walls were taken away again go; dots from above stay.
     SupportForest kept;
     std::vector<std::size_t> place(num_vertices(forest_));

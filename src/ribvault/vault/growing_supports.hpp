@@ -22,26 +22,26 @@ public:
     /// Precondition: p lies strictly inside the cavity. Postcondition: covers(p, 0) up to rounding.
     void add_wall(Point p);
 
-    /// A wall added by add_wall, from its new vertex to where it joined.
-    struct NewTip {
+    /// A wall that add_wall added, from its new vertex to where it joined.
+    struct NewWall {
         std::size_t vertex, joint;
-        std::uint32_t wall;
+        std::uint32_t index;
     };
-    const std::vector<NewTip>& new_tips() const { return new_tips_; }
-    /// Has nothing been joined to the new vertex, and is its wall there?
-    bool is_tip(const NewTip& tip) const { return walls_[tip.wall].alive && out_degree(tip.vertex, forest_) == 1; }
-    Segment wall_of(const NewTip& tip) const { return {forest_[tip.joint].at, forest_[tip.vertex].at}; }
-    void remove(const NewTip& tip) {
-        walls_[tip.wall].alive = false;
-        remove_edge(tip.vertex, tip.joint, forest_);
+    const std::vector<NewWall>& new_walls() const { return new_walls_; }
+    /// Is the wall there, and nothing joined to its new vertex?
+    bool is_free(const NewWall& wall) const { return walls_[wall.index].alive && out_degree(wall.vertex, forest_) == 1; }
+    Segment segment_of(const NewWall& wall) const { return {forest_[wall.joint].at, forest_[wall.vertex].at}; }
+    void remove(const NewWall& wall) {
+        walls_[wall.index].alive = false;
+        remove_edge(wall.vertex, wall.joint, forest_);
     }
     /// Puts it back, shortened to a share of `whole`.
-    void restore(const NewTip& tip, const Segment& whole, double share) {
+    void restore(const NewWall& wall, const Segment& whole, double share) {
         const Point d = whole.b - whole.a;
-        forest_[tip.vertex].at = {whole.a.x + round_to_lattice(share * static_cast<double>(d.x)),
+        forest_[wall.vertex].at = {whole.a.x + round_to_lattice(share * static_cast<double>(d.x)),
                                   whole.a.y + round_to_lattice(share * static_cast<double>(d.y))};
-        walls_[tip.wall].alive = true;
-        add_edge(tip.vertex, tip.joint, forest_);
+        walls_[wall.index].alive = true;
+        add_edge(wall.vertex, wall.joint, forest_);
     }
 
     /// The supports; invalidates the object.
@@ -60,7 +60,7 @@ private:
     bool free_way(Point from, std::size_t to) const;
     std::size_t split(std::uint32_t wall, Point near);
 
-    std::vector<NewTip> new_tips_;
+    std::vector<NewWall> new_walls_;
     std::size_t inherited_vertices_ = 0;
     SupportForest forest_;
     const CavityBoundary& boundary_;

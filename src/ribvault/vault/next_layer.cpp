@@ -34,7 +34,7 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
                 if (survives[e] && copied.origin[e] >= 0) continues[static_cast<std::size_t>(copied.origin[e])] = 1;
         };
         ErodedSupports eroded;
-        if (settings.strategy == Strategy::thrifty) {
+        if (settings.propagation == Propagation::shrink) {
             ShrunkSupports shrunk = shrink_supports(copied.forest, boundary, settings.erosion_step);
             note_continued(shrunk.survives);
             propagated = shrunk.left_cavity ? clip_again(shrunk.forest, boundary) : std::move(shrunk.forest);
@@ -43,7 +43,7 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
             note_continued(eroded.survives);
             propagated = std::move(eroded.forest);
         }
-        if (settings.strategy == Strategy::paper && settings.straighten) {
+        if (settings.propagation == Propagation::erode_straighten && settings.straighten) {
             StraightenedSupports straightened = straighten_supports(propagated, eroded.pinned, boundary, settings.straighten_step);
             result.blocked = straightened.blocked;
             propagated = straightened.left_cavity ? clip_again(straightened.forest, boundary) : std::move(straightened.forest);
