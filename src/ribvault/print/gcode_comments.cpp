@@ -38,9 +38,10 @@ std::optional<std::int64_t> length(std::string_view text) {
 
 /// A layer's height, to the nearest µm: slicers write 0.200001 for the same height as 0.2.
 std::optional<std::int64_t> height_of(std::string_view text) {
-    const std::optional<std::int64_t> nm = length(text);
-    if (!nm || *nm < 1000) return std::nullopt;
-    return (*nm + 500) / 1000 * 1000;
+    constexpr std::int64_t um = 1000000;
+    const std::optional<std::int64_t> height = length(text);
+    if (!height || *height < um) return std::nullopt;
+    return (*height + um / 2) / um * um;
 }
 
 /// "0.4,0.6" or "1.75|1.75": what can be read of it.

@@ -10,11 +10,11 @@ namespace ribvault {
 namespace {
 
 constexpr double pooled_mm = 0.25;                 // shorter stretches share one flow
-constexpr std::int64_t nm_per_mm = 1000000000;     // 1e-9 mm
-constexpr Int128 decimal_per_nm = decimal_one / nm_per_mm;
-constexpr std::int64_t widest = 100 * nm_per_mm;
+constexpr std::int64_t pm_per_mm = 1000000000;     // 1e-9 mm
+constexpr Int128 decimal_per_pm = decimal_one / pm_per_mm;
+constexpr std::int64_t widest = 100 * pm_per_mm;
 
-std::int64_t in_nm(Int128 z) { return static_cast<std::int64_t>(z / decimal_per_nm); }
+std::int64_t in_pm(Int128 z) { return static_cast<std::int64_t>(z / decimal_per_pm); }
 
 GcodePoint flat(const std::array<Decimal, 3>& p) { return {p[0], p[1]}; }
 
@@ -106,8 +106,8 @@ void LayerCollector::file_climbs(const LayerHints& hints) {
     for (const auto& [key, layer] : groups_)
         if (level.empty() || level.back() != key.z) level.push_back(key.z);
     Int128 step = 0;  // of layers that no level extrusion tells of
-    if (climbing_.front().extrusion.height) step = *climbing_.front().extrusion.height * decimal_per_nm;
-    else if (hints.layer_height) step = *hints.layer_height * decimal_per_nm;
+    if (climbing_.front().extrusion.height) step = *climbing_.front().extrusion.height * decimal_per_pm;
+    else if (hints.layer_height) step = *hints.layer_height * decimal_per_pm;
     else if (level.size() >= 2) step = level.back() - level[level.size() - 2];
     else if (level.size() == 1) step = level.back();
     if (step <= 0) step = decimal_one / 5;
@@ -128,7 +128,7 @@ void LayerCollector::resolve_heights(const GcodePrint& print, const LayerHints& 
     std::int64_t lower = 0;  // top of the next lower z
     for (auto at = groups_.begin(); at != groups_.end();) {
         const Int128 z = at->first.z;
-        const std::int64_t top = in_nm(z);
+        const std::int64_t top = in_pm(z);
         auto end = at;
         std::int64_t said = 0;  // the height of most tracks at this z, bridges apart
         std::size_t most = 0;
@@ -142,7 +142,7 @@ void LayerCollector::resolve_heights(const GcodePrint& print, const LayerHints& 
         std::int64_t usual = said;
         if (usual == 0 && resolved.empty()) usual = hints.first_layer_height.value_or(hints.layer_height.value_or(top));
         if (usual == 0) usual = top - lower;
-        if (usual <= 0) usual = hints.layer_height.value_or(nm_per_mm / 5);  // at or below the bed
+        if (usual <= 0) usual = hints.layer_height.value_or(pm_per_mm / 5);  // at or below the bed
         for (; at != end; ++at) {
             GcodeLayer& from = at->second;
             for (std::size_t k = 0; k < from.tracks.size(); ++k) {
@@ -207,9 +207,9 @@ void LayerCollector::finish(GcodePrint& print, const LayerHints& hints) {
 }
 
 void find_layers_below(std::vector<GcodeLayer>& layers) {
-    constexpr std::int64_t rounding = nm_per_mm / 200;  // 0.005 mm
+    constexpr std::int64_t rounding = pm_per_mm / 200;  // 0.005 mm
     if (layers.empty()) return;
-    const auto top = [&](std::size_t k) { return in_nm(layers[k].z.value); };
+    const auto top = [&](std::size_t k) { return in_pm(layers[k].z.value); };
     const auto bottom = [&](std::size_t k) { return top(k) - layers[k].height; };
     const std::int64_t bed = bottom(0);
     for (std::size_t k = 0; k < layers.size(); ++k) {

@@ -65,7 +65,7 @@ public:
         LayerHints hints{comments_.layer_height, comments_.first_layer_height, comments_.filaments};
         if (options_.filament_diameter) hints.filaments = {*options_.filament_diameter};
         if (hints.filaments.empty()) hints.filaments = {usual_filament};
-        if (!hints.layer_height && options_.layer_height) hints.layer_height = std::llround(*options_.layer_height * 1e6) * 1000;
+        if (!hints.layer_height && options_.layer_height) hints.layer_height = std::llround(*options_.layer_height * 1000) * 1000000;
         print_.filament_diameter = hints.filaments.front();
         collector_.finish(print_, hints);
         return std::move(print_);
