@@ -66,13 +66,13 @@ int cross_sign(Located& v, const Direction& d, const Direction& e) { return dot_
 struct Ray {
     Direction along;
     int jump = 0;
-    double radius = 0;  ///< of the boundary's curvature, away from the material's outside; 0 when straight
+    Radius radius;  ///< of the boundary's curvature, away from the material's outside; 0 when straight
 };
 
 /// A stadium of K with v on its boundary.
 struct LocalSite {
     Direction normal;      ///< inward
-    double radius = 0;     ///< of the boundary where it is curved
+    Radius radius;         ///< of the boundary where it is curved
     bool segment = false;  ///< the boundary is straight along `axis` (forward) or against it (backward)
     Direction axis;
     bool forward = false, backward = false;
@@ -107,7 +107,7 @@ bool straight_along(Located& v, const LocalSite& site, const Direction& d) {
 
 struct Extent {
     bool left = false, right = false;  ///< M has points on that side of the ray, however close to it
-    double radius = 0;  ///< curvature radius of M's boundary along the ray when only one side is M; 0 straight
+    Radius radius;  ///< curvature radius of M's boundary along the ray when only one side is M; 0 straight
 };
 
 // How M lies along direction d, from its boundary rays (none: v is an inner point of M).
@@ -187,7 +187,7 @@ bool cone_covered(Located& v, std::span<const Ray> rays, std::span<const LocalSi
         if (ahead) continue;
         bool left = !m.left, right = !m.right;
         for (const LocalSite* site : beside) {
-            const bool flat_enough = straight_along(v, *site, d) || (m.radius > 0 && m.radius <= site->radius);
+            const bool flat_enough = straight_along(v, *site, d) || (m.radius.approx > 0 && no_greater(m.radius, site->radius));
             if (!flat_enough) continue;
             (cross_sign(v, d, site->normal) > 0 ? left : right) = true;
         }
@@ -245,7 +245,7 @@ Local decide_locally(Located& v, const Surroundings& near, Vec<double>& hint) {
         const LocalSite m = local_site(v, problem.pieces[piece]);
         // Material lies to the left of the tangent direction rot-90 of the inward normal.
         const Direction before = turned(m.normal, 3), after = turned(m.normal, 1);
-        const auto curvature = [&](const Direction& d) { return straight_along(v, m, d) ? 0 : m.radius; };
+        const auto curvature = [&](const Direction& d) { return straight_along(v, m, d) ? Radius(0) : m.radius; };
         const Ray rays[2] = {{before, 1, curvature(before)}, {after, -1, curvature(after)}};
         if (!cone_covered(v, rays, view(sites), hint)) return Local::uncovered;
     }
