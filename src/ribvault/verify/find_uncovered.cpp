@@ -84,10 +84,11 @@ struct Leaf {
             if (outside(v)) return false;
         }
         Vec<double> hint{1, 0};
-        const Local local = decide_locally(v, near, hint);
+        Leaving leaving;
+        const Local local = decide_locally(v, near, hint, &leaving);
         count(stages, std::max(v.stage, already));
         if (local != Local::uncovered) return false;
-        found = {(v.x.inf() + v.x.sup()) / 2, (v.y.inf() + v.y.sup()) / 2, hint};
+        found = {(v.x.inf() + v.x.sup()) / 2, (v.y.inf() + v.y.sup()) / 2, hint, candidate, leaving};
         return true;
     }
 
@@ -171,7 +172,7 @@ std::optional<Uncovered> find_uncovered(const CoverProblem& problem, const Windo
                 continue;
             }
             ++stages.interval;
-            if (state == CellState::uncovered) return Uncovered{child.x, child.y, {1, 0}};
+            if (state == CellState::uncovered) return Uncovered{child.x, child.y, {1, 0}, {}, {}};
         }
     }
     return std::nullopt;
