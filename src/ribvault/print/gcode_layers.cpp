@@ -207,13 +207,13 @@ void LayerCollector::finish(GcodePrint& print, const LayerHints& hints) {
 }
 
 void find_layers_below(std::vector<GcodeLayer>& layers) {
-    constexpr std::int64_t rounding = pm_per_mm / 200;  // 0.005 mm
     if (layers.empty()) return;
     const auto top = [&](std::size_t k) { return in_pm(layers[k].z.value); };
     const auto bottom = [&](std::size_t k) { return top(k) - layers[k].height; };
     const std::int64_t bed = bottom(0);
     for (std::size_t k = 0; k < layers.size(); ++k) {
         GcodeLayer& layer = layers[k];
+        const std::int64_t rounding = std::min(pm_per_mm / 200, layer.height / 4);  // 0.005 mm, less than the layer
         layer.below.clear();
         layer.on_bed = layer.layer == 0 || bottom(k) <= bed + rounding;
         if (layer.on_bed) continue;

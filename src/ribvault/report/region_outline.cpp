@@ -14,12 +14,12 @@ Vector middle(const std::array<std::array<double, 2>, 2>& enclosure) {
     return {(enclosure[0][0] + enclosure[0][1]) / 2, (enclosure[1][0] + enclosure[1][1]) / 2};
 }
 
-std::string pair(const Vector& p) { return svg_number(p[0]) + " " + svg_number(-p[1]); }
+void append_pair(std::string& data, const Vector& p) { data.append(svg_number(p[0])).append(" ").append(svg_number(-p[1])); }
 
 void append_piece(std::string& data, const BoundaryPiece& piece, const PrintedLayer& upper, const PrintedLayer& lower) {
     const Vector from = middle(piece.from), to = middle(piece.to);
     if (piece.curve == BoundaryPiece::Curve::line) {
-        data += "L" + pair(to);
+        append_pair(data += 'L', to);
         return;
     }
     const PrintedTrack& track = (piece.upper ? upper : lower).tracks[piece.track];
@@ -28,9 +28,10 @@ void append_piece(std::string& data, const BoundaryPiece& piece, const PrintedLa
     const double start = std::atan2(from[1] - centre[1], from[0] - centre[0]), stop = std::atan2(to[1] - centre[1], to[0] - centre[0]);
     double turn = piece.left_turning ? stop - start : start - stop;
     if (turn < 0) turn += 2 * std::numbers::pi;
-    const std::string radius = svg_number(piece.radius.get_d()), sweep = piece.left_turning ? "0" : "1";
+    const std::string radius = svg_number(piece.radius.get_d());
     const auto arc = [&](const Vector& p, double by) {
-        data += "A" + radius + " " + radius + " 0 " + (by > std::numbers::pi ? "1" : "0") + " " + sweep + " " + pair(p);
+        data.append("A").append(radius).append(" ").append(radius).append(by > std::numbers::pi ? " 0 1" : " 0 0");
+        append_pair(data.append(piece.left_turning ? " 0 " : " 1 "), p);
     };
     if (turn < 1e-6 && from == to) {  // a whole circle is two arcs
         arc({2 * centre[0] - from[0], 2 * centre[1] - from[1]}, 0);
@@ -46,7 +47,7 @@ std::string outline_data(const UnsupportedRegion& region, const PrintedLayer& up
     std::string data;
     for (const auto& chain : region.boundary) {
         if (chain.empty()) continue;
-        data += "M" + pair(middle(chain.front().from));
+        append_pair(data += 'M', middle(chain.front().from));
         for (const BoundaryPiece& piece : chain) append_piece(data, piece, upper, lower);
         data += "z";
     }
