@@ -6,10 +6,13 @@
 
 namespace ribvault::cli {
 
-Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(bool quiet, const char* order) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), order_(order) {}
 
-Progress::~Progress() {
+Progress::~Progress() { clear(); }
+
+void Progress::clear() {
     if (!quiet_ && terminal_ && shown_ >= 0) std::fputs("\r\033[K", stderr);
+    shown_ = -1;
 }
 
 void Progress::operator()(int done, int total) {
@@ -25,7 +28,7 @@ void Progress::operator()(int done, int total) {
         std::fprintf(stderr, "\r[%s] %3d %%  layer %d of %d", bar, percent, done, total);
         std::fflush(stderr);
     } else if (done == total || step > 0) {
-        std::fprintf(stderr, "%d %% (%d of %d layers, from the top)\n", step, done, total);
+        std::fprintf(stderr, "%d %% (%d of %d layers%s)\n", step, done, total, order_);
     }
 }
 

@@ -55,6 +55,9 @@ public:
         at_ = to;
     }
 
+    /// Nothing was drawn since the move.
+    bool at_start() const { return moved_; }
+
 private:
     std::string& text_;
     Place at_{0, 0};
@@ -79,6 +82,14 @@ std::string region_data(const Region& region) {
         data += 'z';
     }
     return data;
+}
+
+void append_line(std::string& data, const std::vector<Point>& points) {
+    if (points.empty()) return;
+    Pen pen(data);
+    pen.move(points.front());
+    for (std::size_t i = 1; i < points.size(); ++i) pen.line(points[i]);
+    if (pen.at_start()) data += "h0";
 }
 
 void append_dot(std::string& data, Point at) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "ribvault/vault/support_forest.hpp"
 
@@ -16,6 +17,9 @@ std::string region_data(const Region& region);
 /// All tracks of a forest, one polyline per branch-free chain; an isolated vertex is a line of no length, which round
 /// line ends make a disc.
 std::string track_data(const SupportForest& forest);
+
+/// An open line through points; one point is a line of no length.
+void append_line(std::string& data, const std::vector<Point>& points);
 
 /// Appends a line of no length at a point.
 void append_dot(std::string& data, Point at);

@@ -18,7 +18,7 @@ Line<NT> line_of(const CoverProblem& problem, const Curve& c) {
     const Vec<NT> p = exact_point<NT>(problem.vertices[c.a]);
     const Vec<NT> d = exact_point<NT>(problem.vertices[c.b]) - p;
     if (c.side == 0) return {p, d, NT(0)};
-    return {p, d, NT(number<NT>(c.side * c.radius) * root(NT(dot(d, d))))};
+    return {p, d, NT(NT(c.side) * number<NT>(c.radius) * root(NT(dot(d, d))))};
 }
 
 // Two circles about c1, c2 = c1 + D: q = c1 + (A D +- sqrt(disc) rot90 D) / D^2 with A = (D^2 + R1^2 - R2^2) / 2 and
@@ -46,11 +46,10 @@ Meeting<NT> meeting_of(const CoverProblem& problem, const Curve& circle, const C
             m.along = x;
             m.disc = NT(r1 * r1 * m.norm - x * x);
         } else {
-            const double offset = other.side * other.radius;
             const NT length = root(m.norm);
-            m.along = NT(x + number<NT>(offset) * length);
-            m.disc = NT((number<NT>(circle.radius - offset) * length - x) *
-                        (number<NT>(circle.radius + offset) * length + x));
+            m.along = NT(x + NT(other.side) * number<NT>(other.radius) * length);
+            m.disc = NT((difference<NT>(circle.radius, other.side, other.radius) * length - x) *
+                        (difference<NT>(circle.radius, -other.side, other.radius) * length + x));
         }
         m.u = {NT(-d.y), d.x};
         m.w = d;
@@ -166,11 +165,7 @@ void refine(Located& v) {
     CGAL::Protect_FPU_rounding<true> nearest(CGAL_FE_TONEAREST);
     if (const Vec<Rational>* q = rational_value(v)) {
         if (v.stage < Stage::rational) v.stage = Stage::rational;
-        const auto enclose = [](const Rational& a) {
-            const double d = a.get_d();  // truncated towards zero
-            return Interval(std::nextafter(d, -HUGE_VAL), std::nextafter(d, HUGE_VAL));
-        };
-        v.x = enclose(q->x), v.y = enclose(q->y);
+        v.x = enclosure(q->x), v.y = enclosure(q->y);
         return;
     }
     const std::lock_guard lock(algebraic_mutex());

@@ -17,7 +17,7 @@ struct Curve {
     bool line = false;
     int a = 0, b = 0;
     int side = 0;  ///< 1: left, -1: right, 0: the line itself
-    double radius = 0;
+    Radius radius;
     bool from_material = false;
 };
 
@@ -25,7 +25,7 @@ struct Curve {
 struct Candidate {
     enum class Kind { vertex, leftmost, meeting } kind = Kind::vertex;
     int vertex = 0;
-    double radius = 0;
+    Radius radius;
     Curve first, second;
     int root = 0;  ///< which of the two meeting points; 0 when there is one
 };

@@ -107,8 +107,8 @@ void refer_to_centre(const Subdivision& s, Cell& cell) {
 Subdivision subdivision(const CoverProblem& problem) {
     double c = 1;
     for (const Vertex& v : problem.vertices) c = std::max({c, std::abs(v.cx), std::abs(v.cy)});
-    for (const Stadium& s : problem.sites) c = std::max(c, s.radius);
-    for (const Stadium& s : problem.pieces) c = std::max(c, s.radius);
+    for (const Stadium& s : problem.sites) c = std::max(c, s.radius.approx);
+    for (const Stadium& s : problem.pieces) c = std::max(c, s.radius.approx);
     Subdivision s;
     s.problem = &problem;
     s.margin = std::ldexp(c, -34);
@@ -154,7 +154,7 @@ CellState quarter(const Subdivision& s, const Cell& parent, int index, Cell& cel
     const double reach = cell.half * half_diagonal + 8 * s.margin;
     const int region_edges = static_cast<int>(problem.region.size());
     for (const int i : parent.sites) {
-        const double radius = problem.sites[i].radius, squared = squared_distance(s.sites[i], cell.x, cell.y);
+        const double radius = problem.sites[i].radius.approx, squared = squared_distance(s.sites[i], cell.x, cell.y);
         if (squared > (radius + reach) * (radius + reach)) continue;
         const double d = std::sqrt(squared);
         if (stadium_contains(s, s.sites[i], radius, cell, d)) return CellState::settled;
@@ -165,7 +165,7 @@ CellState quarter(const Subdivision& s, const Cell& parent, int index, Cell& cel
         if (squared_distance(s.material[i], cell.x, cell.y) <= reach * reach) cell.edges.push_back(i);
     bool in_piece = false;
     for (const int i : parent.pieces) {
-        const double radius = problem.pieces[i].radius, squared = squared_distance(s.pieces[i], cell.x, cell.y);
+        const double radius = problem.pieces[i].radius.approx, squared = squared_distance(s.pieces[i], cell.x, cell.y);
         if (squared > (radius + reach) * (radius + reach)) continue;
         cell.pieces.push_back(i);
         in_piece = in_piece || stadium_contains(s, s.pieces[i], radius, cell, std::sqrt(squared));

@@ -11,7 +11,7 @@ namespace ribvault::verify {
 /// All points within `radius` of the segment from vertex a to vertex b (a == b: a disc). Closed.
 struct Stadium {
     int a = 0, b = 0;   ///< indices into CoverProblem::vertices
-    double radius = 0;  ///< lattice units, an integer
+    Radius radius;      ///< lattice units
 };
 
 /// An oriented boundary edge.

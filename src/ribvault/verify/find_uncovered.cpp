@@ -40,7 +40,7 @@ struct Leaf {
     void add_curves(const Stadium& stadium, bool from_material,
                     boost::container::small_vector<Curve, 24>& curves) const {
         const auto add_circle = [&](int centre) {
-            if (!circle_meets(centre, stadium.radius)) return;
+            if (!circle_meets(centre, stadium.radius.approx)) return;
             for (const Curve& c : curves)
                 if (!c.line && c.a == centre && c.radius == stadium.radius && c.from_material == from_material) return;
             curves.push_back({false, centre, centre, 0, stadium.radius, from_material});
@@ -58,7 +58,7 @@ struct Leaf {
         const double above = tiny ? 0 : (dx * vy - dy * vx) / length;
         if (!tiny && (along < -reach || along > length + reach)) return;
         for (const int side : {-1, 1})
-            if (tiny || std::abs(above - side * stadium.radius) <= reach)
+            if (tiny || std::abs(above - side * stadium.radius.approx) <= reach)
                 curves.push_back({true, stadium.a, stadium.b, side, stadium.radius, from_material});
     }
 
@@ -84,10 +84,11 @@ struct Leaf {
             if (outside(v)) return false;
         }
         Vec<double> hint{1, 0};
-        const Local local = decide_locally(v, near, hint);
+        Leaving leaving;
+        const Local local = decide_locally(v, near, hint, &leaving);
         count(stages, std::max(v.stage, already));
         if (local != Local::uncovered) return false;
-        found = {(v.x.inf() + v.x.sup()) / 2, (v.y.inf() + v.y.sup()) / 2, hint};
+        found = {(v.x.inf() + v.x.sup()) / 2, (v.y.inf() + v.y.sup()) / 2, hint, candidate, leaving};
         return true;
     }
 
@@ -124,7 +125,7 @@ struct Leaf {
             const Stadium& piece = problem.pieces[p];
             const int a = problem.vertices[piece.b].cx < problem.vertices[piece.a].cx ? piece.b : piece.a;
             const Vertex& v = problem.vertices[a];
-            if (near_cell(v.cx - piece.radius, v.cy) &&
+            if (near_cell(v.cx - piece.radius.approx, v.cy) &&
                 refutes({Candidate::Kind::leftmost, a, piece.radius, {}, {}, 0}, Stage::interval, found))
                 return true;
         }
@@ -149,15 +150,16 @@ std::optional<Uncovered> find_uncovered(const CoverProblem& problem, const Windo
     if (window.lo_x > window.hi_x || window.lo_y > window.hi_y) return std::nullopt;
     const Subdivision s = subdivision(problem);
     double smallest = 0;
-    for (const Stadium& site : problem.sites) smallest = smallest == 0 ? site.radius : std::min(smallest, site.radius);
+    for (const Stadium& site : problem.sites) smallest = smallest == 0 ? site.radius.approx : std::min(smallest, site.radius.approx);
     std::vector<Cell> open{root_cell(s, window)};
     Cell child;
     while (!open.empty()) {
         Cell cell = std::move(open.back());
         open.pop_back();
         // A cell smaller than this that meets the boundary of K's region lies in the stadium there, so it is settled.
+        // Cells near the margin are the end in any case: doubles cannot tell points apart there, exact numbers do.
         const bool few = cell.sites.size() <= 3 && cell.edges.size() <= 4 && cell.pieces.size() <= 2;
-        if (cell.region.empty() && (few || cell.half < smallest / 16)) {
+        if (cell.region.empty() && (few || cell.half < smallest / 16 || cell.half < 64 * s.margin)) {
             Uncovered found;
             if (Leaf(s, cell, stages).refute(found)) return found;
             continue;
@@ -170,7 +172,7 @@ std::optional<Uncovered> find_uncovered(const CoverProblem& problem, const Windo
                 continue;
             }
             ++stages.interval;
-            if (state == CellState::uncovered) return Uncovered{child.x, child.y, {1, 0}};
+            if (state == CellState::uncovered) return Uncovered{child.x, child.y, {1, 0}, {}, {}};
         }
     }
     return std::nullopt;

@@ -66,13 +66,13 @@ int cross_sign(Located& v, const Direction& d, const Direction& e) { return dot_
 struct Ray {
     Direction along;
     int jump = 0;
-    double radius = 0;  ///< of the boundary's curvature, away from the material's outside; 0 when straight
+    Radius radius;  ///< of the boundary's curvature, away from the material's outside; 0 when straight
 };
 
 /// A stadium of K with v on its boundary.
 struct LocalSite {
     Direction normal;      ///< inward
-    double radius = 0;     ///< of the boundary where it is curved
+    Radius radius;         ///< of the boundary where it is curved
     bool segment = false;  ///< the boundary is straight along `axis` (forward) or against it (backward)
     Direction axis;
     bool forward = false, backward = false;
@@ -107,7 +107,7 @@ bool straight_along(Located& v, const LocalSite& site, const Direction& d) {
 
 struct Extent {
     bool left = false, right = false;  ///< M has points on that side of the ray, however close to it
-    double radius = 0;  ///< curvature radius of M's boundary along the ray when only one side is M; 0 straight
+    Radius radius;  ///< curvature radius of M's boundary along the ray when only one side is M; 0 straight
 };
 
 // How M lies along direction d, from its boundary rays (none: v is an inner point of M).
@@ -160,7 +160,21 @@ Vec<double> approximate(const Located& v, const Direction& d) {
     return n > 0 ? Vec<double>{u.x / n, u.y / n} : Vec<double>{1, 0};
 }
 
-bool cone_covered(Located& v, std::span<const Ray> rays, std::span<const LocalSite> sites, Vec<double>& hint) {
+// M's points on that side are those at more than s^2 / 2 R_M from the ray, K's at more than s^2 / 2 R for the largest R.
+Leaving leaving_along(Located& v, const Direction& d, const Extent& m, std::span<const LocalSite* const> beside,
+                      int side) {
+    Leaving leaving{d.a, d.b, d.turns, side, 0};
+    double flattest = 0;
+    for (const LocalSite* site : beside)
+        if (cross_sign(v, d, site->normal) == side) flattest = std::max(flattest, site->radius.approx);
+    const double from = m.radius.approx > 0 ? 1 / m.radius.approx : 0;
+    if (flattest > 0) leaving.c = (from + 1 / flattest) / 4;
+    if (flattest == 0 && from > 0) leaving.c = from;
+    return leaving;
+}
+
+bool cone_covered(Located& v, std::span<const Ray> rays, std::span<const LocalSite> sites, Vec<double>& hint,
+                  Leaving* leaving) {
     Few<Direction> critical;
     for (const Ray& ray : rays) critical.push_back(ray.along);
     for (const LocalSite& site : sites) {
@@ -187,12 +201,13 @@ bool cone_covered(Located& v, std::span<const Ray> rays, std::span<const LocalSi
         if (ahead) continue;
         bool left = !m.left, right = !m.right;
         for (const LocalSite* site : beside) {
-            const bool flat_enough = straight_along(v, *site, d) || (m.radius > 0 && m.radius <= site->radius);
+            const bool flat_enough = straight_along(v, *site, d) || (m.radius.approx > 0 && no_greater(m.radius, site->radius));
             if (!flat_enough) continue;
             (cross_sign(v, d, site->normal) > 0 ? left : right) = true;
         }
         if (!left || !right) {
             hint = approximate(v, d);
+            if (leaving) *leaving = leaving_along(v, d, m, view(beside), left ? -1 : 1);
             return false;
         }
     }
@@ -201,7 +216,7 @@ bool cone_covered(Located& v, std::span<const Ray> rays, std::span<const LocalSi
 
 }  // namespace
 
-Local decide_locally(Located& v, const Surroundings& near, Vec<double>& hint) {
+Local decide_locally(Located& v, const Surroundings& near, Vec<double>& hint, Leaving* leaving) {
     const CoverProblem& problem = *v.problem;
     const Stage all = Stage::algebraic;
     Few<int> on_or_unknown;
@@ -239,15 +254,15 @@ Local decide_locally(Located& v, const Surroundings& near, Vec<double>& hint) {
         if (side == Side::inside) return Local::covered;
         if (side == Side::on) sites.push_back(local_site(v, problem.sites[s]));
     }
-    if (inner_point) return cone_covered(v, {}, view(sites), hint) ? Local::covered : Local::uncovered;
-    if (!region_rays.empty() && !cone_covered(v, view(region_rays), view(sites), hint)) return Local::uncovered;
+    if (inner_point) return cone_covered(v, {}, view(sites), hint, leaving) ? Local::covered : Local::uncovered;
+    if (!region_rays.empty() && !cone_covered(v, view(region_rays), view(sites), hint, leaving)) return Local::uncovered;
     for (const int piece : boundary_pieces) {
         const LocalSite m = local_site(v, problem.pieces[piece]);
         // Material lies to the left of the tangent direction rot-90 of the inward normal.
         const Direction before = turned(m.normal, 3), after = turned(m.normal, 1);
-        const auto curvature = [&](const Direction& d) { return straight_along(v, m, d) ? 0 : m.radius; };
+        const auto curvature = [&](const Direction& d) { return straight_along(v, m, d) ? Radius(0) : m.radius; };
         const Ray rays[2] = {{before, 1, curvature(before)}, {after, -1, curvature(after)}};
-        if (!cone_covered(v, rays, view(sites), hint)) return Local::uncovered;
+        if (!cone_covered(v, rays, view(sites), hint, leaving)) return Local::uncovered;
     }
     return Local::covered;
 }

@@ -23,8 +23,16 @@ enum class Local {
     unknown     ///< only when stages are limited
 };
 
+/// How M \ K leaves a point: the direction rot90^turns of (vertex b - vertex a), or of (vertex a - point) when b < 0, and
+/// on which side of that ray its points are, near v + s d + c s^2 n for small s > 0, n being the unit normal on that side.
+struct Leaving {
+    int a = -1, b = -1, turns = 0;  ///< a < 0: in all directions
+    int side = 0;                   ///< 1: left, -1: right
+    double c = 0;                   ///< in between the curvatures, for a unit vector d; 0: any small c
+};
+
 /// Exact decision at v, with all stages. Precondition: v lies outside K's region or strictly inside a site of `near`.
 /// When the answer is `uncovered`, `hint` is a unit direction along which M \ K leaves v (or touches the ray).
-Local decide_locally(Located& v, const Surroundings& near, Vec<double>& hint);
+Local decide_locally(Located& v, const Surroundings& near, Vec<double>& hint, Leaving* leaving = nullptr);
 
 }  // namespace ribvault::verify

@@ -2,6 +2,8 @@
 
 #include <CGAL/FPU.h>
 
+#include <cmath>
+
 namespace ribvault::verify {
 
 Vertex lattice_vertex(Point p) {
@@ -24,8 +26,23 @@ Vertex slice_vertex(const ExactKernel::Point_2& p) {
     return v;
 }
 
+Interval enclosure(const Rational& a) {
+    const double d = a.get_d();  // truncated towards zero
+    if (std::isfinite(d) && Rational(d) == a) return Interval(d);
+    return a > 0 ? Interval(d, std::nextafter(d, HUGE_VAL)) : Interval(std::nextafter(d, -HUGE_VAL), d);
+}
+
+Vertex rational_vertex(const Vec<Rational>& p) {
+    Vertex v;
+    v.x = enclosure(p.x), v.y = enclosure(p.y);
+    v.cx = v.x.inf(), v.cy = v.y.inf();
+    v.rational = &p;
+    return v;
+}
+
 template <>
 Vec<Rational> exact_point<Rational>(const Vertex& v) {
+    if (v.rational) return *v.rational;
     if (!v.slice) return {Rational(static_cast<long>(v.lattice.x)), Rational(static_cast<long>(v.lattice.y))};
     const Rational scale(static_cast<long>(units_per_mm));
     return {Rational(CGAL::exact(v.slice->x()) * scale), Rational(CGAL::exact(v.slice->y()) * scale)};

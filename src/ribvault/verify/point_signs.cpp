@@ -4,16 +4,16 @@ namespace ribvault::verify {
 
 namespace {
 
-bool is_circle(const Curve& c, int centre, double radius) { return !c.line && c.a == centre && c.radius == radius; }
-bool is_line(const Curve& c, int a, int b, double radius) {
+bool is_circle(const Curve& c, int centre, const Radius& radius) { return !c.line && c.a == centre && c.radius == radius; }
+bool is_line(const Curve& c, int a, int b, const Radius& radius) {
     return c.line && ((c.a == a && c.b == b) || (c.a == b && c.b == a)) && c.radius == radius;
 }
-bool known_on_circle(const Candidate& c, int centre, double radius) {
+bool known_on_circle(const Candidate& c, int centre, const Radius& radius) {
     if (c.kind == Candidate::Kind::leftmost) return c.vertex == centre && c.radius == radius;
     return c.kind == Candidate::Kind::meeting &&
            (is_circle(c.first, centre, radius) || is_circle(c.second, centre, radius));
 }
-bool known_on_lines(const Candidate& c, int a, int b, double radius) {
+bool known_on_lines(const Candidate& c, int a, int b, const Radius& radius) {
     return c.kind == Candidate::Kind::meeting && (is_line(c.first, a, b, radius) || is_line(c.second, a, b, radius));
 }
 
@@ -23,7 +23,7 @@ Vec<NT> at(const CoverProblem& problem, int vertex) {
 }
 
 // Sign of |v - centre| - radius.
-int disc_sign(Located& v, int centre, double radius, Stage last) {
+int disc_sign(Located& v, int centre, const Radius& radius, Stage last) {
     if (known_on_circle(v.candidate, centre, radius)) return 0;
     const CoverProblem& problem = *v.problem;
     return sign_at(
@@ -37,7 +37,7 @@ int disc_sign(Located& v, int centre, double radius, Stage last) {
 }
 
 // Sign of the distance of v from the line ab minus radius.
-int strip_sign(Located& v, int a, int b, double radius, Stage last) {
+int strip_sign(Located& v, int a, int b, const Radius& radius, Stage last) {
     if (known_on_lines(v.candidate, a, b, radius)) return 0;
     const CoverProblem& problem = *v.problem;
     return sign_at(

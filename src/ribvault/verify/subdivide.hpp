@@ -3,8 +3,7 @@
 
 #include <optional>
 
-#include "ribvault/verify/cover_problem.hpp"
-#include "ribvault/verify/verdict.hpp"
+#include "ribvault/verify/local_cover.hpp"
 
 namespace ribvault::verify {
 
@@ -17,6 +16,8 @@ struct Window {
 struct Uncovered {
     double x = 0, y = 0;
     Vec<double> hint{1, 0};
+    std::optional<Candidate> candidate;  ///< the point exactly; else (x, y) is in M \ K itself
+    Leaving leaving;
 };
 
 /// Decides M \ K = {} exactly (docs/verifier.md). Nothing when it is empty. Precondition: M \ K lies inside `window`.

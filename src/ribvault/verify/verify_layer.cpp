@@ -76,7 +76,7 @@ Window window_of_m(const CoverProblem& problem) {
     Window w = empty_window;
     for (const Edge& e : problem.material) grow_window(w, problem, e.a, 1);
     for (const Stadium& piece : problem.pieces)
-        for (const int end : {piece.a, piece.b}) grow_window(w, problem, end, piece.radius + 1);
+        for (const int end : {piece.a, piece.b}) grow_window(w, problem, end, piece.radius.approx + 1);
     return w;
 }
 

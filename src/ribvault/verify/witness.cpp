@@ -111,7 +111,7 @@ Unsupported describe_uncovered(const CoverProblem& problem, const Window& window
     const Located v = mm_point(problem, result.witness);
     double least = HUGE_VAL;
     for (const Stadium& site : problem.sites)
-        least = std::min(least, -(site.radius - reach - distance_below(problem, site, v)));
+        least = std::min(least, -(site.radius.approx - reach - distance_below(problem, site, v)));
     // One ulp down after each of the three roundings of upward arithmetic.
     result.witness_distance = std::max(0.0, least * (1 - 1e-14) / static_cast<double>(units_per_mm) * (1 - 1e-14));
     if (problem.sites.empty()) result.witness_distance = HUGE_VAL;

@@ -1,0 +1,130 @@
+#include "ribvault/pipeline/judge_layer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "ribvault/print/printed_layers.hpp"
+#include "ribvault/report/region_outline.hpp"
+#include "ribvault/verify/bridges.hpp"
+
+namespace ribvault {
+namespace {
+
+std::array<double, 2> place(const std::array<Rational, 2>& p) { return {p[0].get_d(), p[1].get_d()}; }
+
+std::array<double, 2> along(const PrintedTrack& t, double mm) {
+    const auto a = place(t.a), b = place(t.b);
+    const double whole = std::hypot(b[0] - a[0], b[1] - a[1]);
+    const double share = whole > 0 ? std::clamp(mm / whole, 0.0, 1.0) : 0;
+    return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
+}
+
+HangingPiece describe(const UnsupportedPiece& p, const PrintedLayer& upper) {
+    const PrintedTrack& track = upper.tracks[p.track];
+    HangingPiece piece;
+    piece.line = track.line;
+    piece.feature = track.feature;
+    piece.length_mm = p.to_mm - p.from_mm;
+    piece.from = along(track, p.from_mm);
+    piece.to = along(track, p.to_mm);
+    piece.distance_mm = {p.distance_lo, p.distance_hi};
+    piece.worst = p.worst;
+    return piece;
+}
+
+HangingRegion describe(const UnsupportedRegion& r, const PrintedLayer& upper, const PrintedLayer& lower, double min_area) {
+    HangingRegion region;
+    region.area_mm2 = {r.area_lo, r.area_hi};
+    region.distance_mm = {r.distance_lo, r.distance_hi};
+    region.witness = place(r.witness);
+    region.witness_exact = {r.witness[0].get_str(), r.witness[1].get_str()};
+    region.witness_distance_mm = r.witness_distance;
+    region.witness_certified = r.witness_certified;
+    std::set<std::int64_t> lines;
+    std::set<int> features;
+    for (const std::size_t t : r.tracks) lines.insert(upper.tracks[t].line), features.insert(upper.tracks[t].feature);
+    region.lines.assign(lines.begin(), lines.end());
+    region.features.assign(features.begin(), features.end());
+    region.ignored = r.area_hi <= min_area;
+    region.outline = outline_data(r, upper, lower);
+    return region;
+}
+
+/// Takes the bridges out of `upper` and enters them.
+PrintedLayer without_bridges(const GcodeLayer& layer, PrintedLayer upper, const PrintedLayer& lower, const std::vector<char>& judged,
+                             const LayerRules& rules, JudgedLayer& result) {
+    PrintedOptions lines_only;
+    lines_only.judged = judged;
+    lines_only.areas = lines_only.regions = false;
+    const PrintedVerdict verdict = verify_printed(upper, lower, rules.support_radius, lines_only);
+    result.layer.stages += verdict.stages;
+    const std::vector<char> continues = continued_tracks(layer);
+    const std::vector<Bridge> bridges = find_bridges(upper, continues, judged, verdict, rules.longest_bridge->get_d());
+    if (bridges.empty()) return upper;
+    for (const Bridge& bridge : bridges)
+        for (const std::size_t k : bridge.pieces) {
+            HangingPiece piece = describe(verdict.pieces[k], upper);
+            const double least = std::min(piece.length_mm, verdict.unsupported_length[verdict.pieces[k].track][0]);
+            const Enclosure length{least, piece.length_mm};
+            result.layer.bridged_mm += length;
+            result.features[static_cast<std::size_t>(piece.feature)].bridged_mm += length;
+            result.layer.bridges.push_back(std::move(piece));
+        }
+    return take_out_bridges(upper, continues, verdict, bridges).layer;
+}
+
+}  // namespace
+
+JudgedLayer judge_layer(const GcodePrint& print, std::size_t entry, const LayerRules& rules) {
+    const GcodeLayer& layer = print.layers[entry];
+    JudgedLayer result;
+    result.features.resize(print.features.size());
+    HangingLayer& out = result.layer;
+    out.layer = layer.layer;
+    out.entry = entry;
+    out.z_mm = to_double(layer.z);
+    out.height_mm = static_cast<double>(layer.height) * 1e-9;
+    out.on_bed = layer.on_bed;
+    bool any_judged = false;
+    for (const GcodeTrack& t : layer.tracks) {
+        const GcodePoint &a = layer.points[t.a], &b = layer.points[t.b];
+        const double length = std::hypot(to_double(b.x - a.x), to_double(b.y - a.y));
+        FeatureShare& share = result.features[t.feature];
+        ++share.tracks;
+        share.length_mm += length;
+        if (rules.judged[t.feature] == 0) continue;
+        any_judged = true;
+        out.length_mm += length;
+    }
+    if (layer.on_bed || !any_judged) return result;
+
+    const auto judged_of = [&](const PrintedLayer& tracks) {
+        std::vector<char> judged;
+        for (const PrintedTrack& t : tracks.tracks) judged.push_back(rules.judged[static_cast<std::size_t>(t.feature)]);
+        return judged;
+    };
+    const PrintedLayer lower = material_below(print, entry);
+    PrintedLayer upper = layer_above(print, entry);
+    if (rules.longest_bridge) {
+        const std::vector<char> judged = judged_of(upper);
+        upper = without_bridges(layer, std::move(upper), lower, judged, rules, result);
+    }
+    PrintedOptions options;
+    options.judged = judged_of(upper);
+    options.boundaries = rules.outlines;
+    const PrintedVerdict verdict = verify_printed(upper, lower, rules.support_radius, options);
+    out.stages += verdict.stages;
+    for (std::size_t k = 0; k < upper.tracks.size(); ++k) {
+        const Enclosure length{verdict.unsupported_length[k][0], verdict.unsupported_length[k][1]};
+        out.unsupported_mm += length;
+        result.features[static_cast<std::size_t>(upper.tracks[k].feature)].unsupported_mm += length;
+    }
+    for (const UnsupportedPiece& p : verdict.pieces) out.pieces.push_back(describe(p, upper));
+    for (const UnsupportedRegion& r : verdict.regions) out.regions.push_back(describe(r, upper, lower, rules.min_area));
+    const auto counts = [](const HangingRegion& r) { return !r.ignored; };
+    out.supported = verdict.supported || (!out.regions.empty() && std::none_of(out.regions.begin(), out.regions.end(), counts));
+    return result;
+}
+
+}  // namespace ribvault

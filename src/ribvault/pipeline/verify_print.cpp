@@ -1,0 +1,228 @@
+#include "ribvault/pipeline/verify_print.hpp"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <set>
+
+#include "ribvault/error.hpp"
+#include "ribvault/output_file.hpp"
+#include "ribvault/pipeline/judge_layer.hpp"
+#include "ribvault/print/read_gcode.hpp"
+#include "ribvault/report/print_page.hpp"
+#include "ribvault/report/printed_layer_svg.hpp"
+#include "ribvault/report/run_report.hpp"
+
+namespace ribvault {
+namespace {
+
+using Time = std::chrono::steady_clock;
+
+double seconds_since(Time::time_point start) { return std::chrono::duration<double>(Time::now() - start).count(); }
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorKind::usage, what); }
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return text;
+}
+
+/// Per feature of the print: whether the list names it or its kind. An entry that names none is refused.
+std::vector<char> named(const GcodePrint& print, const std::vector<std::string>& list, const char* option) {
+    std::vector<char> chosen(print.features.size(), 0);
+    for (const std::string& entry : list) {
+        bool any = false;
+        for (std::size_t k = 0; k < print.features.size(); ++k) {
+            if (lower(entry) != lower(print.features[k].name) && lower(entry) != kind_name(print.features[k].kind)) continue;
+            chosen[k] = 1;
+            any = true;
+        }
+        if (any) continue;
+        std::set<std::string> known;
+        for (const GcodeLayer& layer : print.layers)
+            for (const GcodeTrack& t : layer.tracks) known.insert(print.features[t.feature].name);
+        std::string names;
+        for (const std::string& name : known) names += (names.empty() ? "'" : ", '") + name + "'";
+        refuse(std::string(option) + ": the print has no '" + entry + "'; it has " + names +
+               " (kinds: perimeter, infill, solid, bridge, support, skirt, tower, other)");
+    }
+    return chosen;
+}
+
+void check(const VerifyJob& job) {
+    const auto need = [](const std::optional<Rational>& value, const char* option, const Rational& most) {
+        if (value && (*value <= 0 || *value > most))
+            refuse(std::string(option) + " is " + value->get_str() + "; it must be more than 0 and at most " + most.get_str());
+    };
+    need(job.support_radius, "--support-radius", 100);
+    need(job.nozzle, "--nozzle", 100);
+    need(job.filament_diameter, "--filament-diameter", 100);
+    need(job.layer_height, "--layer-height", 100);
+    need(job.longest_bridge, "--allow-bridges", 10000);
+    if (job.overlap && (*job.overlap < 0 || *job.overlap >= 1)) refuse("--overlap is " + job.overlap->get_str() + "; it must be at least 0 and less than 1");
+    if (job.min_area < 0) refuse("--min-area is " + job.min_area.get_str() + "; it must be 0 or more");
+    if (job.threads < 0) refuse("--threads must be 0 (all processors) or more");
+}
+
+class Run {
+public:
+    explicit Run(const VerifyJob& job) : job_(job), start_(Time::now()) {}
+
+    PrintReport execute() {
+        check(job_);
+        open_outputs();
+        read();
+        settle();
+        choose_features();
+        judge();
+        sum_up(report_);
+        report_.seconds = seconds_since(start_);
+        report_.peak_memory_mb = peak_memory_mb();
+        write_outputs();
+        return std::move(report_);
+    }
+
+private:
+    void open_outputs() {
+        if (job_.report) json_.emplace(*job_.report);
+        if (job_.html) page_.emplace(*job_.html);
+        if (!job_.svg) return;
+        std::error_code error;
+        std::filesystem::create_directories(*job_.svg, error);
+        if (error) throw Error(ErrorKind::cannot_write, job_.svg->string() + ": cannot make this folder (" + error.message() + "); choose another with --svg");
+    }
+
+    void read() {
+        GcodeOptions options;
+        if (job_.filament_diameter) options.filament_diameter = job_.filament_diameter->get_d();
+        if (job_.layer_height) options.layer_height = job_.layer_height->get_d();
+        print_ = read_gcode(job_.gcode, options);
+        report_.version = RIBVAULT_VERSION;
+        report_.input_path = job_.gcode.string();
+        report_.flavour = flavour_name(print_.flavour);
+        report_.program = print_.program;
+        report_.cut = print_.cut;
+        report_.lines = print_.lines;
+        report_.bytes = print_.bytes;
+        report_.set_aside_mm = print_.set_aside_mm;
+        report_.widths_written = print_.widths_written;
+        report_.widths_computed = print_.widths_computed;
+        report_.layer_count = print_.layer_count;
+        report_.filament_mm = print_.filament_diameter;
+        report_.filament_source = job_.filament_diameter ? "option" : print_.filaments.empty() ? "default" : "file";
+        report_.read_seconds = seconds_since(start_);
+        if (!print_.cut.empty()) job_.warn(report_.input_path + " is cut off: " + print_.cut + "; judged up to there");
+        if (print_.widths_computed > 0 && report_.filament_source == "default")
+            job_.warn("widths are computed from E with filament of 1.75 mm, as the file names none; --filament-diameter says another");
+    }
+
+    /// ρ and what it comes from.
+    void settle() {
+        Rational nozzle(2, 5);
+        report_.nozzle_source = "default";
+        if (job_.nozzle) {
+            nozzle = *job_.nozzle;
+            report_.nozzle_source = "option";
+        } else if (!print_.nozzles.empty()) {
+            nozzle = to_rational(rounded_decimal(*std::min_element(print_.nozzles.begin(), print_.nozzles.end())));
+            report_.nozzle_source = "file";
+        }
+        const Rational overlap = job_.overlap.value_or(Rational(1, 2));
+        radius_ = job_.support_radius.value_or((1 - overlap) * nozzle);
+        report_.support_radius_source = job_.support_radius ? "--support-radius" : job_.overlap ? "--overlap" : "half the nozzle";
+        report_.nozzle_mm = nozzle.get_d();
+        report_.support_radius_mm = radius_.get_d();
+        report_.support_radius_exact = radius_.get_str();
+        if (job_.longest_bridge) report_.longest_bridge_mm = job_.longest_bridge->get_d();
+        report_.min_area_mm2 = job_.min_area.get_d();
+    }
+
+    void choose_features() {
+        judged_.assign(print_.features.size(), 1);
+        if (!job_.features.empty()) judged_ = named(print_, job_.features, "--features");
+        const std::vector<char> ignored = named(print_, job_.ignored_features, "--ignore-features");
+        for (std::size_t k = 0; k < judged_.size(); ++k) judged_[k] = judged_[k] != 0 && ignored[k] == 0 ? 1 : 0;
+    }
+
+    void judge() {
+        namespace tbb = oneapi::tbb;
+        const auto limit = job_.threads > 0 ? static_cast<std::size_t>(job_.threads)
+                                            : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
+        report_.threads = static_cast<int>(limit);
+        const LayerRules rules{radius_, job_.longest_bridge, report_.min_area_mm2, judged_, job_.svg || job_.html};
+        const int total = static_cast<int>(print_.layers.size());
+        std::vector<JudgedLayer> judged(print_.layers.size());
+        std::mutex reporting;
+        int done = 0;
+        tbb::parallel_for(std::size_t{0}, print_.layers.size(), [&](std::size_t k) {
+            if (job_.stop()) return;
+            judged[k] = judge_layer(print_, k, rules);
+            const std::lock_guard lock(reporting);
+            job_.progress(++done, total);
+        });
+        if (job_.stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+        for (std::size_t k = 0; k < print_.features.size(); ++k) {
+            HangingFeature f;
+            f.name = print_.features[k].name;
+            f.kind = kind_name(print_.features[k].kind);
+            f.judged = judged_[k] != 0;
+            report_.features.push_back(std::move(f));
+        }
+        for (JudgedLayer& layer : judged) {
+            for (std::size_t k = 0; k < layer.features.size(); ++k) {
+                HangingFeature& f = report_.features[k];
+                const FeatureShare& share = layer.features[k];
+                f.tracks += share.tracks;
+                f.length_mm += share.length_mm;
+                f.unsupported_mm += share.unsupported_mm;
+                f.bridged_mm += share.bridged_mm;
+            }
+            report_.layers.push_back(std::move(layer.layer));
+        }
+    }
+
+    void write_outputs() {
+        std::vector<AtomicFile> pictures;
+        if (job_.svg) {
+            for (const std::size_t k : worst_layers(report_, static_cast<std::size_t>(std::max(0, job_.pictures)))) {
+                char name[48];
+                const HangingLayer& layer = report_.layers[k];
+                const bool parts = (k > 0 && report_.layers[k - 1].layer == layer.layer) ||
+                                   (k + 1 < report_.layers.size() && report_.layers[k + 1].layer == layer.layer);
+                if (parts)
+                    std::snprintf(name, sizeof name, "layer_%05d_%.0fum.svg", layer.layer, layer.height_mm * 1000);
+                else
+                    std::snprintf(name, sizeof name, "layer_%05d.svg", layer.layer);
+                pictures.emplace_back(*job_.svg / name, false);
+                pictures.back().write(printed_layer_svg(print_, report_, k));
+            }
+        }
+        if (page_) page_->write(print_page(print_, report_));
+        if (json_) json_->write(to_json(report_));
+        if (page_) page_->finish();
+        if (json_) json_->finish();
+        for (AtomicFile& picture : pictures) picture.finish();
+        for (AtomicFile& picture : pictures) picture.commit();
+        if (page_) page_->commit();
+        if (json_) json_->commit();
+    }
+
+    const VerifyJob& job_;
+    const Time::time_point start_;
+    GcodePrint print_;
+    PrintReport report_;
+    Rational radius_;
+    std::vector<char> judged_;  ///< per feature
+    std::optional<AtomicFile> json_, page_;
+};
+
+}  // namespace
+
+PrintReport verify_print(const VerifyJob& job) { return Run(job).execute(); }
+
+}  // namespace ribvault

@@ -1,0 +1,65 @@
+// A print as its G-code tells it: layers of tracks, with exact coordinates, compact.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ribvault/print/decimal.hpp"
+
+namespace ribvault {
+
+enum class GcodeFlavour { unknown, ribvault, prusa_slicer, orca_slicer, bambu_studio, cura, slic3r, simplify3d };
+const char* flavour_name(GcodeFlavour flavour);
+
+/// What a feature type is for, by the words in its name.
+enum class FeatureKind { perimeter, infill, solid, bridge, support, skirt, tower, custom, other };
+const char* kind_name(FeatureKind kind);
+
+struct GcodeFeature {
+    std::string name;  ///< as the file writes it; "untyped" where it says nothing
+    FeatureKind kind = FeatureKind::other;
+};
+
+struct GcodePoint {
+    Decimal x, y;  ///< mm
+    friend bool operator==(const GcodePoint&, const GcodePoint&) = default;
+};
+
+/// A straight extrusion.
+struct GcodeTrack {
+    std::uint32_t a = 0, b = 0;   ///< ends: indices into the layer's points; equal: a dot
+    std::uint32_t line = 0;       ///< of the file, from 1
+    std::uint16_t feature = 0;    ///< index into GcodePrint::features
+    bool chord = false;           ///< of an arc: the true centre line lies within arc_bound_mm of this one
+    bool continues = false;       ///< starts where the track before it in this layer ended, without a travel between
+    std::int64_t width = 0;       ///< 1e-9 mm
+};
+
+/// All tracks with the same top and the same height.
+struct GcodeLayer {
+    int layer = 0;                     ///< from 0 at the bed; entries with equal z have the same number
+    Decimal z;                         ///< top, mm: where the nozzle was
+    std::int64_t height = 0;           ///< 1e-9 mm
+    std::vector<GcodePoint> points;
+    std::vector<GcodeTrack> tracks;    ///< in the order of the file
+    bool on_bed = false;
+    std::vector<std::size_t> below;    ///< entries whose material is directly below (see directly_below)
+};
+
+struct GcodePrint {
+    GcodeFlavour flavour = GcodeFlavour::unknown;
+    std::string program;                  ///< the line in which the slicer names itself, or empty
+    std::vector<GcodeFeature> features;
+    std::vector<GcodeLayer> layers;       ///< by z, then height
+    int layer_count = 0;                  ///< different z
+    std::string cut;                      ///< why the file is believed to be cut off, or empty
+    std::int64_t lines = 0;
+    std::uint64_t bytes = 0;
+    double set_aside_mm = 0;              ///< extruded by start, end and other custom G-code: neither judged nor material
+    std::vector<double> nozzles, filaments;  ///< diameters in mm as the file says, one a tool; empty: it does not
+    double filament_diameter = 0;         ///< mm; what widths were computed with where the file gives none (tool 0)
+    std::uint64_t widths_written = 0, widths_computed = 0;  ///< tracks whose width stands in a comment; comes from E
+};
+
+}  // namespace ribvault

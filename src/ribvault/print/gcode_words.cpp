@@ -1,0 +1,102 @@
+#include "ribvault/print/gcode_words.hpp"
+
+#include <algorithm>
+
+namespace ribvault {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+bool is_letter(char c) { return c >= 'A' && c <= 'Z'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Skips blanks and remarks in parentheses.
+void skip_blanks(std::string_view& text) {
+    for (;;) {
+        std::size_t n = 0;
+        while (n < text.size() && is_blank(text[n])) ++n;
+        text.remove_prefix(n);
+        if (text.empty() || text.front() != '(') return;
+        const std::size_t close = text.find(')');
+        text.remove_prefix(close == std::string_view::npos ? text.size() : close + 1);
+    }
+}
+
+int scan_code(std::string_view& text) {
+    int code = 0;
+    std::size_t n = 0;
+    for (; n < text.size() && is_digit(text[n]); ++n) code = std::min(code * 10 + (text[n] - '0'), 100000);
+    text.remove_prefix(n);
+    return n == 0 ? -1 : code;
+}
+
+/// Whether the words after the command are numbers that decide where material goes.
+bool is_read(const GcodeWords& w) {
+    if (w.letter == 'G') return w.code <= 3 || w.code == 28 || w.code == 92;
+    return w.letter == 'M' && w.code == 200;
+}
+
+std::string scan_words(std::string_view text, GcodeWords& w) {
+    const bool flags = w.letter == 'G' && w.code == 28;  // "G28 X": a letter alone
+    for (skip_blanks(text); !text.empty() && text.front() != '*'; skip_blanks(text)) {
+        const char letter = upper(text.front());
+        if (!is_letter(letter)) return quoted_text(text) + " stands where a letter such as X, Y, Z, E or F should";
+        text.remove_prefix(1);
+        while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+        const std::uint32_t bit = GcodeWords::bit(letter);
+        if ((w.written & bit) != 0) return std::string("the word ") + letter + " stands there twice";
+        w.written |= bit;
+        const ScannedDecimal number = scan_decimal(text);
+        switch (number.fault) {
+            case ScannedDecimal::Fault::none: break;
+            case ScannedDecimal::Fault::no_number:
+                if (!flags)
+                    return (text.empty() ? "the line ends" : quoted_text(text) + " stands") + " where the number of " + letter + " should";
+                w.bare |= bit;
+                break;
+            case ScannedDecimal::Fault::too_many_decimals:
+                return std::string("the number of ") + letter + " has more than 18 decimals";
+            case ScannedDecimal::Fault::too_large:
+                return std::string("the number of ") + letter + " is 10000000 or more, no length of a print";
+        }
+        w.values[letter - 'A'] = number.number;
+        text.remove_prefix(number.length);
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string quoted_text(std::string_view text) {
+    std::string shown(text.substr(0, 30));
+    std::replace_if(shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return "'" + shown + (text.size() > 30 ? "...'" : "'");
+}
+
+std::string scan_line(std::string_view line, GcodeWords& w) {
+    w.letter = 0, w.code = -1, w.subcode = 0, w.written = 0, w.bare = 0;
+    const std::size_t semicolon = line.find(';');
+    w.comment = semicolon == std::string_view::npos ? std::string_view{} : line.substr(semicolon + 1);
+    std::string_view text = line.substr(0, semicolon);
+    skip_blanks(text);
+    if (text.empty()) return {};
+    if (upper(text.front()) == 'N' && text.size() > 1 && is_digit(text[1])) {  // line number
+        text.remove_prefix(1);
+        scan_code(text);
+        skip_blanks(text);
+        if (text.empty()) return {};
+    }
+    const char letter = upper(text.front());
+    if (letter != 'G' && letter != 'M' && letter != 'T') return {};
+    std::string_view rest = text.substr(1);
+    w.code = scan_code(rest);
+    if (w.code < 0) return {};  // a macro: GREETING, M_FOO
+    w.letter = letter;
+    if (!rest.empty() && rest.front() == '.') {
+        rest.remove_prefix(1);
+        w.subcode = std::max(0, scan_code(rest));
+    }
+    return is_read(w) ? scan_words(rest, w) : std::string{};
+}
+
+}  // namespace ribvault

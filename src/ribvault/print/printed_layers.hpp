@@ -1,0 +1,21 @@
+// Layers as read, as the verifier wants them.
+#pragma once
+
+#include <vector>
+
+#include "ribvault/print/gcode_print.hpp"
+#include "ribvault/verify/printed_layer.hpp"
+
+namespace ribvault {
+
+/// An entry of print.layers, to be held up: one track for each of its tracks, in their order. A chord is as much wider as its
+/// arc may lie beside it (arc_bound_mm), so that it contains the arc's material.
+PrintedLayer layer_above(const GcodePrint& print, std::size_t entry);
+
+/// The material directly below it: all tracks of its `below`, whatever feature they belong to. A chord is as much narrower.
+PrintedLayer material_below(const GcodePrint& print, std::size_t entry);
+
+/// Per track of the entry: 1 when it goes on where the track before it ended, without a travel.
+std::vector<char> continued_tracks(const GcodeLayer& layer);
+
+}  // namespace ribvault

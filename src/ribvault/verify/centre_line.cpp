@@ -1,0 +1,202 @@
+#include "ribvault/verify/centre_line.hpp"
+
+#include <algorithm>
+
+#include "ribvault/verify/exact_stadium.hpp"
+
+namespace ribvault::verify {
+
+namespace {
+
+using Stretch2 = std::array<QuadraticNumber, 2>;
+
+void unite(std::optional<Stretch2>& all, Stretch2 with) {
+    if (!all) {
+        all = std::move(with);
+        return;
+    }
+    if (compare(with[0], (*all)[0]) < 0) (*all)[0] = std::move(with[0]);
+    if (compare(with[1], (*all)[1]) > 0) (*all)[1] = std::move(with[1]);
+}
+
+/// An end of a covered stretch, or of the track: in mm along it, between two doubles, and exactly when asked.
+struct End {
+    double lo = -HUGE_VAL, hi = HUGE_VAL;
+    int stadium = -1;  ///< index into Below::which; -1: an end of the track
+    int side = 0;      ///< 0: where the stretch begins, 1: where it ends
+    std::optional<QuadraticNumber> exact;
+};
+
+struct Covered {
+    End from, to;
+};
+
+class Line {
+public:
+    Line(const PrintedTrack& track, const PreparedTrack& prepared, const Below& below, double margin)
+        : track_(track), prepared_(prepared), below_(below), margin_(margin),
+          in_doubles_(prepared.inverse_norm > 0 && prepared.length > 64 * margin) {}
+
+    std::vector<CentreGap> gaps(StageCounts& stages);
+
+private:
+    const QuadraticNumber& exact(End& e) {
+        if (!e.exact) {
+            const auto stretch = exact_of(e.stadium);
+            e.exact = (*stretch)[static_cast<std::size_t>(e.side)];  // certainly inside somewhere: there is one
+        }
+        if (!e.exact->rational()) algebraic_ = true;
+        return *e.exact;
+    }
+    std::optional<Stretch2> exact_of(int i) {
+        const auto k = static_cast<std::size_t>(below_.which[static_cast<std::size_t>(i)]);
+        return exact_stretch(track_, below_.tracks[k], below_.radii[k]);
+    }
+    int order(End& p, End& q) {
+        if (p.hi < q.lo) return -1;
+        if (p.lo > q.hi) return 1;
+        if (p.stadium == q.stadium && p.side == q.side && p.lo == q.lo && p.hi == q.hi) return 0;
+        exactly_ = true;
+        return compare(exact(p), exact(q));
+    }
+    bool covered_by(int i, Covered& covered);
+    bool certainly_apart(const FrameStadium& f) const;
+
+    const PrintedTrack& track_;
+    const PreparedTrack& prepared_;
+    const Below& below_;
+    double margin_;
+    bool in_doubles_, exactly_ = false, algebraic_ = false;
+};
+
+// Segments whose ends are farther than the margin from each other cross in doubles when they cross.
+bool Line::certainly_apart(const FrameStadium& f) const {
+    const double length = prepared_.length, reach = f.radius + margin_;
+    FrameStadium self;
+    self.bs = self.ds = length, self.inverse_norm = prepared_.inverse_norm;
+    if (distance(f, 0, 0) <= reach || distance(f, length, 0) <= reach || distance(self, f.as, f.ay) <= reach ||
+        distance(self, f.bs, f.by) <= reach)
+        return false;
+    if ((f.ay > 0) == (f.by > 0)) return true;
+    const double at = f.as - f.ay / f.dy * f.ds;
+    return at < 0 || at > length;
+}
+
+bool Line::covered_by(int i, Covered& covered) {
+    const FrameStadium& f = below_.seen[static_cast<std::size_t>(i)];
+    covered = {};
+    covered.from.stadium = covered.to.stadium = i;
+    covered.to.side = 1;
+    if (in_doubles_) {
+        if (certainly_apart(f)) return false;
+        Stretch in, out;
+        if (certainly_inside(f, 0, margin_, in) && about_where(f, 0, 2 * margin_, out) && out.lo <= in.lo &&
+            out.hi >= in.hi && distance(f, out.lo, 0) >= f.radius + margin_ &&
+            distance(f, out.hi, 0) >= f.radius + margin_) {
+            covered.from.lo = out.lo, covered.from.hi = in.lo;
+            covered.to.lo = in.hi, covered.to.hi = out.hi;
+            return true;
+        }
+    }
+    exactly_ = true;
+    const std::optional<Stretch2> stretch = exact_of(i);
+    if (!stretch) return false;
+    covered.from.exact = (*stretch)[0], covered.to.exact = (*stretch)[1];
+    if (in_doubles_)
+        for (End* e : {&covered.from, &covered.to}) {
+            const std::array<Rational, 2> t = enclose(*e->exact, 60);
+            e->lo = t[0].get_d() * prepared_.length, e->hi = t[1].get_d() * prepared_.length;
+            e->lo -= margin_ + std::abs(e->lo) * 0x1p-40, e->hi += margin_ + std::abs(e->hi) * 0x1p-40;
+        }
+    return true;
+}
+
+std::vector<CentreGap> Line::gaps(StageCounts& stages) {
+    std::vector<Covered> all;
+    Covered covered;
+    for (std::size_t i = 0; i < below_.which.size(); ++i)
+        if (covered_by(static_cast<int>(i), covered)) all.push_back(covered);
+    std::sort(all.begin(), all.end(), [&](Covered& p, Covered& q) { return order(p.from, q.from) < 0; });
+    End begin, end;
+    begin.exact = QuadraticNumber{0, 0, 0}, end.exact = QuadraticNumber{1, 0, 0};
+    end.side = 1;
+    if (in_doubles_) begin.lo = begin.hi = 0, end.lo = prepared_.length - margin_, end.hi = prepared_.length + margin_;
+    std::vector<CentreGap> found;
+    End reached = begin;
+    for (Covered& c : all) {
+        if (order(c.from, end) >= 0) break;
+        if (order(c.from, reached) > 0) found.push_back({exact(reached), exact(c.from)});
+        if (order(c.to, reached) > 0) reached = c.to;
+    }
+    if (order(reached, end) < 0) found.push_back({exact(reached), exact(end)});
+    ++(algebraic_ ? stages.algebraic : exactly_ ? stages.rational : stages.interval);
+    return found;
+}
+
+bool dot_covered(const PrintedTrack& dot, const PreparedTrack& prepared, const Below& below, double margin,
+                 StageCounts& stages) {
+    bool exactly = false, covered = false;
+    for (const int i : below.which) {
+        const auto k = static_cast<std::size_t>(i);
+        const double d = centre_distance(below.prepared[k], prepared.ax, prepared.ay), r = below.radii[k].get_d();
+        if (d > r + margin) continue;
+        covered = d < r - margin;
+        if (!covered) exactly = true, covered = compare_distance(dot.a, below.tracks[k], below.radii[k]) <= 0;
+        if (covered) break;
+    }
+    ++(exactly ? stages.rational : stages.interval);
+    return covered;
+}
+
+}  // namespace
+
+// With p = a - c, u = b - a and the segment below from c along v of squared length n: within R of c where
+// u^2 t^2 + 2 (u.p) t + p^2 <= R^2; within R of the segment's inner points where 0 <= (p + t u).v <= n and
+// |cross(v, p + t u)| <= R sqrt(n).
+std::optional<std::array<QuadraticNumber, 2>> exact_stretch(const PrintedTrack& track, const PrintedTrack& below,
+                                                            const Rational& radius) {
+    const Rational ux = track.b[0] - track.a[0], uy = track.b[1] - track.a[1], uu = ux * ux + uy * uy;
+    std::optional<Stretch2> all;
+    const auto disc = [&](const std::array<Rational, 2>& c) {
+        const Rational px = track.a[0] - c[0], py = track.a[1] - c[1], up = ux * px + uy * py;
+        const Rational under = up * up - uu * (px * px + py * py - radius * radius);
+        if (under < 0) return;
+        const Rational middle = -up / uu, root = 1 / uu;
+        unite(all, {quadratic(middle, Rational(-root), under), quadratic(middle, root, under)});
+    };
+    disc(below.a);
+    const Rational vx = below.b[0] - below.a[0], vy = below.b[1] - below.a[1], n = vx * vx + vy * vy;
+    if (n == 0) return all;
+    disc(below.b);
+    const Rational px = track.a[0] - below.a[0], py = track.a[1] - below.a[1];
+    const Rational pv = px * vx + py * vy, uv = ux * vx + uy * vy;
+    const Rational turn = vx * py - vy * px, change = vx * uy - vy * ux;
+    std::optional<QuadraticNumber> lo, hi;
+    const auto clip = [&](QuadraticNumber from, QuadraticNumber to) {
+        if (!lo || compare(from, *lo) > 0) lo = std::move(from);
+        if (!hi || compare(to, *hi) < 0) hi = std::move(to);
+    };
+    if (uv == 0) {
+        if (pv < 0 || pv > n) return all;
+    } else {
+        const Rational t0 = -pv / uv, t1 = (n - pv) / uv;
+        clip({std::min(t0, t1), 0, 0}, {std::max(t0, t1), 0, 0});
+    }
+    if (change == 0) {
+        if (turn * turn > radius * radius * n) return all;
+    } else {
+        const Rational middle = -turn / change, half = abs(Rational(radius / change));
+        clip(quadratic(middle, Rational(-half), n), quadratic(middle, half, n));
+    }
+    if (compare(*lo, *hi) <= 0) unite(all, {*lo, *hi});
+    return all;
+}
+
+std::vector<CentreGap> centre_gaps(const PrintedTrack& track, const PreparedTrack& prepared, const Below& below,
+                                   double margin, StageCounts& stages) {
+    if (track.a != track.b) return Line(track, prepared, below, margin).gaps(stages);
+    if (dot_covered(track, prepared, below, margin, stages)) return {};
+    return {{{0, 0, 0}, {0, 0, 0}}};
+}
+
+}  // namespace ribvault::verify

@@ -1,0 +1,26 @@
+// A printed layer as the verifier sees it: tracks with exact coordinates and their own widths, and nothing else. Light.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "ribvault/exact/rational.hpp"
+
+namespace ribvault {
+
+/// A straight extrusion: the stadium of width `width` around the segment a-b, closed. mm, exact.
+struct PrintedTrack {
+    std::array<Rational, 2> a, b;  ///< ends of the centre line; a == b: a dot
+    Rational width;                ///< > 0
+    int feature = 0;               ///< index of a feature type, the reader's business
+    std::int64_t line = 0;         ///< line of the file
+};
+
+/// The extrusions of one height. The material of the layer is the union of their stadiums.
+struct PrintedLayer {
+    Rational z, height;  ///< mm; not looked at by the verifier
+    std::vector<PrintedTrack> tracks;
+};
+
+}  // namespace ribvault

@@ -1,0 +1,211 @@
+#include "ribvault/verify/verify_printed.hpp"
+
+#include <CGAL/FPU.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ribvault/error.hpp"
+#include "ribvault/verify/lane_cover.hpp"
+#include "ribvault/verify/printed_pair.hpp"
+
+namespace ribvault {
+
+using namespace verify;
+
+namespace {
+
+void check(const PrintedLayer& upper, const PrintedLayer& lower, const Rational& rho, const PrintedOptions& options) {
+    if (rho <= 0) throw Error(ErrorKind::usage, "the verifier needs a positive support radius");
+    if (!options.judged.empty() && options.judged.size() != upper.tracks.size())
+        throw Error(ErrorKind::usage, "the verifier needs one entry of `judged` for each track above, or none");
+    for (const PrintedLayer* layer : {&upper, &lower})
+        for (const PrintedTrack& t : layer->tracks)
+            if (t.width <= 0)
+                throw Error(ErrorKind::usage, "the track of line " + std::to_string(t.line) +
+                                                  " has no positive width, so it is no material");
+}
+
+/// Decides one track after the other.
+class Judge {
+public:
+    Judge(const PrintedPair& pair, const PrintedOptions& options, PrintedVerdict& verdict)
+        : pair_(pair), options_(options), verdict_(verdict) {}
+    void judge(int track);
+    std::vector<OpenPart> open;  ///< what violates (2)
+
+private:
+    bool follows_one();
+    bool stadiums_open(const Stretch& part);
+    void report_gap(const CentreGap& gap);
+    void find_open_parts(const std::vector<Stretch>& gaps, const std::vector<CentreGap>& centre);
+
+    const PrintedPair& pair_;
+    const PrintedOptions& options_;
+    PrintedVerdict& verdict_;
+    std::size_t track_ = 0;
+    std::vector<int> near_;
+    std::vector<FrameStadium> seen_;
+};
+
+// When both ends of the track lie within R - w/2 of one segment below, R being its stadium's radius, then so does all of
+// it, and its stadium lies in that one. Ties included.
+bool Judge::follows_one() {
+    const PreparedTrack& t = pair_.above[track_];
+    const PrintedTrack& exact = pair_.upper[track_];
+    std::vector<int> undecided;
+    for (const int k : near_) {
+        const auto i = static_cast<std::size_t>(k);
+        const PreparedTrack& b = pair_.below[i];
+        const double reach = b.half + pair_.rho_approx - t.half;
+        if (reach < -pair_.margin) continue;
+        const double d = std::max(centre_distance(b, t.ax, t.ay), centre_distance(b, t.bx, t.by));
+        if (d < reach - pair_.margin) {
+            ++verdict_.stages.interval;
+            return true;
+        }
+        if (d <= reach + pair_.margin) undecided.push_back(k);
+    }
+    for (const int k : undecided) {
+        const auto i = static_cast<std::size_t>(k);
+        const Rational reach = pair_.radii[i] - exact.width / 2;
+        if (reach < 0 || compare_distance(exact.a, pair_.lower[i], reach) > 0 ||
+            compare_distance(exact.b, pair_.lower[i], reach) > 0)
+            continue;
+        ++verdict_.stages.rational;
+        return true;
+    }
+    return false;
+}
+
+void Judge::report_gap(const CentreGap& gap) {
+    verdict_.centre_lines_supported = false;
+    const PrintedTrack& exact = pair_.upper[track_];
+    const PreparedTrack& t = pair_.above[track_];
+    UnsupportedPiece piece;
+    piece.track = track_;
+    std::array<double, 2>& total = verdict_.unsupported_length[track_];
+    if (exact.a != exact.b) {
+        // Lengths from squared ones: s = sqrt(t^2 |b - a|^2). Truncated quotients are below, the next double is above.
+        const Rational ux = exact.b[0] - exact.a[0], uy = exact.b[1] - exact.a[1], uu = ux * ux + uy * uy;
+        const auto down = [&](const Rational& a) { return a <= 0 ? 0 : enclose(QuadraticNumber{0, a, uu}, 80)[0].get_d(); };
+        const auto up = [&](const Rational& a) {
+            return a <= 0 ? 0 : std::nextafter(enclose(QuadraticNumber{0, a, uu}, 80)[1].get_d(), HUGE_VAL);
+        };
+        // Stretches shorter than their ends' digits need more of these.
+        for (unsigned bits = 64;; bits *= 2) {
+            const std::array<Rational, 2> from = enclose(gap.from, bits), to = enclose(gap.to, bits);
+            const Rational least = to[0] - from[1], most = to[1] - from[0];
+            if (least <= 0 || (most - least) * 1000000000 > least) continue;
+            piece.from_mm = down(from[0]), piece.to_mm = up(to[1]);
+            total[0] = std::nextafter(total[0] + down(least), 0), total[1] = std::nextafter(total[1] + up(most), HUGE_VAL);
+            break;
+        }
+    }
+    const Farthest far = farthest_on_line(t, piece.from_mm, std::min(piece.to_mm, t.length), pair_.lower_tracks());
+    piece.distance_lo = std::max(far.lo, pair_.rho_approx), piece.distance_hi = std::max(far.hi, piece.distance_lo);
+    piece.worst = {far.x, far.y};
+    verdict_.pieces.push_back(piece);
+}
+
+// Whether some of what the stadium of the track has beside the stretch is not supported. Adds what it finds.
+void Judge::find_open_parts(const std::vector<Stretch>& gaps, const std::vector<CentreGap>& centre) {
+    const PreparedTrack& t = pair_.above[track_];
+    const Below below{pair_.lower, pair_.below, pair_.radii, near_, seen_};
+    const double longest = 6 * t.half;
+    for (const Stretch& gap : gaps) {
+        const int parts = std::max(1, static_cast<int>(std::min(1e6, std::ceil((gap.hi - gap.lo) / longest))));
+        const double step = (gap.hi - gap.lo) / parts;
+        for (int i = 0; i < parts; ++i) {
+            OpenPart part;
+            part.track = static_cast<int>(track_);
+            part.stretch = {gap.lo + i * step - pair_.margin, gap.lo + (i + 1) * step + pair_.margin};
+            for (const CentreGap& c : centre) {
+                // Certainly meets the part: then the part is open without further proof.
+                const double from = enclose(c.from, 60)[1].get_d() * t.length + pair_.margin;
+                const double to = enclose(c.to, 60)[0].get_d() * t.length - pair_.margin;
+                if (std::max(from, part.stretch.lo) < std::min(to, part.stretch.hi)) part.gap = c;
+            }
+            if (part.gap) {
+                open.push_back(std::move(part));
+                continue;
+            }
+            const PreparedTrack piece = part_of(pair_, part);
+            const Square square{(piece.ax + piece.bx) / 2, (piece.ay + piece.by) / 2,
+                                std::max(std::abs(piece.dx), std::abs(piece.dy)) / 2 + piece.half + 4 * pair_.margin};
+            LocalProblem local;
+            const int pieces[] = {part.track};
+            build_local_problem(pair_.upper, pieces, below, square, pair_.margin, local);
+            const std::optional<Uncovered> found = find_uncovered(local.problem, local.window, verdict_.stages);
+            if (!found) continue;
+            const RationalPoint place = local.to_mm(Rational(found->x), Rational(found->y));
+            part.place = {place[0].get_d(), place[1].get_d()};
+            if (options_.regions) part.witness = witness_from(pair_, part.track, local, *found);
+            open.push_back(std::move(part));
+            if (!options_.regions) return;
+        }
+    }
+}
+
+void Judge::judge(int index) {
+    track_ = static_cast<std::size_t>(index);
+    const PreparedTrack& t = pair_.above[track_];
+    pair_.grid.near(t, t.half + 2 * window_slack(pair_.margin), near_);
+    if (follows_one()) return;
+    const TrackFrame frame(t);
+    seen_.clear();
+    for (const int k : near_) {
+        const PreparedTrack& b = pair_.below[static_cast<std::size_t>(k)];
+        seen_.push_back(frame.see(b, b.half + pair_.rho_approx));
+    }
+    const double slack = 2 * pair_.margin;
+    std::vector<Stretch> gaps{{-t.half - slack, t.length + t.half + slack}};
+    if (frame.wide_enough) gaps = lane_gaps(frame, t.half, seen_, pair_.margin);
+    if (gaps.empty()) {
+        ++verdict_.stages.interval;
+        return;
+    }
+    const Below below{pair_.lower, pair_.below, pair_.radii, near_, seen_};
+    const std::vector<CentreGap> centre = centre_gaps(pair_.upper[track_], t, below, pair_.margin, verdict_.stages);
+    for (const CentreGap& gap : centre) report_gap(gap);
+    const std::size_t before = open.size();
+    if (options_.areas && (centre.empty() || options_.regions)) find_open_parts(gaps, centre);
+    // Gaps too short for doubles to place them.
+    if (options_.areas && options_.regions)
+        for (const CentreGap& c : centre) {
+            const double from = enclose(c.from, 60)[0].get_d() * t.length, to = enclose(c.to, 60)[1].get_d() * t.length;
+            const bool known = std::any_of(open.begin() + static_cast<std::ptrdiff_t>(before), open.end(), [&](const OpenPart& p) {
+                return p.stretch.lo <= to && p.stretch.hi >= from;
+            });
+            if (!known) open.push_back({index, {from - slack, to + slack}, c, {}, {}});
+        }
+    if (!centre.empty() || open.size() > before) {
+        verdict_.supported = false;
+        verdict_.track_supported[track_] = 0;
+    }
+}
+
+}  // namespace
+
+PrintedVerdict verify_printed(const PrintedLayer& upper, const PrintedLayer& lower, const Rational& rho,
+                              const PrintedOptions& options) {
+    check(upper, lower, rho, options);
+    const CGAL::Protect_FPU_rounding<true> upward;
+    PrintedVerdict verdict;
+    verdict.unsupported_length.assign(upper.tracks.size(), {0, 0});
+    verdict.track_supported.assign(upper.tracks.size(), 1);
+    PrintedPair pair;
+    pair.upper = upper.tracks, pair.lower = lower.tracks;
+    pair.above = prepare(upper), pair.below = prepare(lower);
+    pair.rho = rho, pair.rho_approx = rho.get_d();
+    for (const PrintedTrack& t : lower.tracks) pair.radii.push_back(t.width / 2 + rho);
+    pair.margin = margin_of(largest_coordinate(pair.above, pair.below, pair.rho_approx));
+    pair.grid = TrackGrid(pair.below, pair.rho_approx + 4 * pair.margin);
+    Judge judge(pair, options, verdict);
+    for (std::size_t i = 0; i < upper.tracks.size(); ++i)
+        if (options.judged.empty() || options.judged[i]) judge.judge(static_cast<int>(i));
+    if (options.regions && options.areas) verdict.regions = describe_regions(pair, judge.open, options);
+    return verdict;
+}
+
+}  // namespace ribvault

@@ -1,0 +1,130 @@
+#include "print/gcode_text.hpp"
+
+using namespace ribvault;
+using namespace ribvault::test;
+
+namespace {
+
+std::set<std::string> heights_of_layers(const GcodePrint& print) {
+    std::set<std::string> all;
+    for (const GcodeLayer& l : print.layers) all.insert(to_rational(l.z).get_str());
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("layers come from extrusions, not from comments", "[gcode]") {
+    const GcodePrint print = read(";LAYER:0\nM83\nG1 Z.2\nG1 X10 E1\n;LAYER:1\nG1 X20 E1\nG1 Z.4\nG1 X0 E1\n");
+    CHECK(print.layer_count == 2);
+    CHECK(print.layers[0].tracks.size() == 2);
+}
+
+TEST_CASE("a Z-hop is no layer", "[gcode]") {
+    const GcodePrint print = read("M83\nG1 Z.2\nG1 X10 E1\nG1 E-1\nG1 Z.6\nG1 X0 Y5\nG1 Z.2\nG1 E1\nG1 X10 E1\nG1 X11 Y9 Z1.5\nG1 Z.4\nG1 X0 E1\n");
+    CHECK(heights_of_layers(print) == std::set<std::string>{"1/5", "2/5"});
+}
+
+TEST_CASE("heights follow the layers where no comment says them", "[gcode]") {
+    const GcodePrint print = read("M83\nG1 Z.3\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\nG1 Z.65\nG1 X10 E1\n");
+    REQUIRE(print.layers.size() == 3);
+    CHECK(height(print.layers[0]) == Approx(0.3));
+    CHECK(height(print.layers[1]) == Approx(0.1));
+    CHECK(height(print.layers[2]) == Approx(0.25));
+    CHECK(print.layers[0].on_bed);
+    CHECK(print.layers[2].below == std::vector<std::size_t>{1});
+}
+
+TEST_CASE("variable layer height by comments", "[gcode]") {
+    const GcodePrint print = corpus("prusa_slicer.gcode");
+    REQUIRE(print.layers.size() == 2);
+    CHECK(height(print.layers[1]) == Approx(0.15));
+    CHECK(print.layers[1].below == std::vector<std::size_t>{0});
+}
+
+TEST_CASE("a bridge is part of its layer, whatever height its thread has", "[gcode]") {
+    const GcodePrint print = corpus("prusa_slicer.gcode");
+    CHECK(name(print, track(print, 1, 1)) == "Bridge infill");
+    CHECK(length(print, "Bridge infill") == Approx(10));
+}
+
+TEST_CASE("heights that differ by rounding are one height", "[gcode]") {
+    const GcodePrint print = read(";TYPE:a\nM83\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\n;HEIGHT:0.200001\nG1 X20 E1\n;HEIGHT:0.199999\nG1 X30 E1\n");
+    REQUIRE(print.layers.size() == 1);
+    CHECK(print.layers[0].height == 200000000);
+}
+
+TEST_CASE("objects printed one after the other share layers", "[gcode]") {
+    const GcodePrint print = read("M83\nG1 Z.2\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\nG1 Z5\nG1 X50\nG1 Z.2\nG1 X60 E1\nG1 Z.4\nG1 X50 E1\n");
+    REQUIRE(print.layers.size() == 2);
+    CHECK(print.layers[0].tracks.size() == 2);
+    CHECK(print.layers[1].tracks.size() == 2);
+}
+
+TEST_CASE("infill of two layers' height rests on what ends at its bottom", "[gcode]") {
+    const GcodePrint print = read("M83\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\nG1 Z.6\nG1 X10 E1\nG1 Z.8\nG1 X0 E1\n;HEIGHT:0.4\nG1 X5 E1\n;HEIGHT:.2\nG1 Z1\nG1 X0 E1\n");
+    REQUIRE(print.layers.size() == 6);
+    CHECK(print.layer_count == 5);
+    CHECK(print.layers[3].below == std::vector<std::size_t>{2});
+    CHECK(height(print.layers[4]) == Approx(0.4));
+    CHECK(print.layers[4].layer == print.layers[3].layer);
+    CHECK(print.layers[4].below == std::vector<std::size_t>{1});
+    CHECK(print.layers[5].below == std::vector<std::size_t>{3, 4});
+}
+
+TEST_CASE("supports at heights of their own hold up what they reach", "[gcode]") {
+    const GcodePrint print = read("M83\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\n;TYPE:Support\nG1 Z.3\nG1 X0 E1\n;TYPE:p\nG1 Z.4\nG1 X10 E1\n");
+    REQUIRE(print.layers.size() == 3);
+    CHECK(print.layers[1].below == std::vector<std::size_t>{0});  // from 0.1 to 0.3: its bottom lies within the first layer
+    CHECK(print.layers[2].below == std::vector<std::size_t>{0, 1});
+}
+
+TEST_CASE("over a gap the nearest layer below counts", "[gcode]") {
+    const GcodePrint print = read("M83\n;TYPE:raft\n;HEIGHT:0.3\nG1 Z.3\nG1 X10 E1\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.65\nG1 X0 E1\n");
+    REQUIRE(print.layers.size() == 2);
+    CHECK_FALSE(print.layers[1].on_bed);
+    CHECK(print.layers[1].below == std::vector<std::size_t>{0});
+}
+
+TEST_CASE("an offset of all heights leaves the first layer on the bed", "[gcode]") {
+    const GcodePrint print = read("M83\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.25\nG1 X10 E1\nG1 Z.45\nG1 X0 E1\n");
+    CHECK(print.layers[0].on_bed);
+    CHECK_FALSE(print.layers[1].on_bed);
+}
+
+TEST_CASE("a spiral vase has one layer a turn, not one a move", "[gcode]") {
+    std::string text = "M83\n;TYPE:External perimeter\n;HEIGHT:0.2\n;WIDTH:0.4\n";
+    for (const char* z : {".2", ".4"}) text += std::string("G1 X0 Y0 Z") + z + "\nG1 X10 E1\nG1 Y10 E1\nG1 X0 E1\nG1 Y0 E1\n";
+    const int turns = 10;
+    const char* corners[] = {"X10 Y0", "X10 Y10", "X0 Y10", "X0 Y0"};
+    for (int k = 1; k <= 4 * turns; ++k) {
+        text += std::string("G1 ") + corners[(k - 1) % 4] + " Z" + std::to_string(0.4 + 0.05 * k) + " E1\n";
+        if (k % 4 == 2) text += "G1 X5 Y10.001 E.5\n";  // too short for z to grow: still the spiral
+    }
+    const GcodePrint print = read(text);
+    CHECK(print.layer_count == 2 + turns);
+    for (int k = 2; k < 2 + turns; ++k) {
+        const GcodeLayer& l = print.layers.at(static_cast<std::size_t>(k));
+        CHECK(l.tracks.size() == 5);
+        CHECK(to_double(l.z) == Approx(0.2 * (k + 1)));
+        CHECK(l.below == std::vector<std::size_t>{static_cast<std::size_t>(k - 1)});
+    }
+}
+
+TEST_CASE("a seam that ramps up belongs to the layer it climbs to", "[gcode]") {
+    const GcodePrint print = read("M83\n;TYPE:Outer wall\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\nG1 Z.2\nG1 X0 Y0\nG1 X1 Z.3 E1\nG1 X2 Z.4 E1\nG1 X10 E1\nG1 X10 Y9 E1\n");
+    CHECK(print.layer_count == 2);
+    CHECK(print.layers[1].tracks.size() == 4);
+}
+
+TEST_CASE("start G-code is set aside", "[gcode]") {
+    SECTION("before the first layer comment") {
+        const GcodePrint print = corpus("cura.gcode");  // a purge line at 0.3 mm, the first layer at 0.2
+        CHECK(heights_of_layers(print) == std::set<std::string>{"1/5", "2/5"});
+        CHECK(print.set_aside_mm == Approx(180));
+    }
+    SECTION("by its type") {
+        CHECK(corpus("prusa_slicer.gcode").set_aside_mm == Approx(100 + std::hypot(30, 22)));
+        CHECK(corpus("bambu_studio.gcode").set_aside_mm == Approx(240));
+    }
+    SECTION("a file without comments has none") { CHECK(read("M83\nG1 Z.2\nG1 X10 E1\n").set_aside_mm == 0); }
+}

@@ -1,0 +1,179 @@
+#include "print/gcode_text.hpp"
+
+#include <numbers>
+
+#include "ribvault/print/gcode_arcs.hpp"
+
+using namespace ribvault;
+using namespace ribvault::test;
+
+namespace {
+
+/// The ends of the only track.
+void check_track(const std::string& text, const std::string& x0, const std::string& y0, const std::string& x1, const std::string& y1) {
+    const GcodePrint print = read(text);
+    REQUIRE(print.layers.size() == 1);
+    REQUIRE(print.layers[0].tracks.size() == 1);
+    const GcodeLayer& l = print.layers[0];
+    CHECK(x(l.points[0]) == decimal(x0));
+    CHECK(y(l.points[0]) == decimal(y0));
+    CHECK(x(l.points[1]) == decimal(x1));
+    CHECK(y(l.points[1]) == decimal(y1));
+}
+
+}  // namespace
+
+TEST_CASE("coordinates are the file's decimals exactly", "[gcode]") {
+    check_track("G1 X0.1 Y.2 Z.2\nG1 X+10.123456789012345678 Y-3. E1\n", "0.1", "0.2", "10.123456789012345678", "-3");
+}
+
+TEST_CASE("G91 moves by what it says, G90 to where it says", "[gcode]") {
+    check_track("G1 X1 Y1 Z.2\nG91\nG1 X.1\nG1 X.1 Y2 E1\n", "1.1", "1", "1.2", "3");
+    check_track("G91\nG1 X1 Y1 Z.2\nG90\nG1 X.1 E1\n", "1", "1", "0.1", "1");
+}
+
+TEST_CASE("G92 moves the origin, not the nozzle", "[gcode]") {
+    check_track("G1 X10 Y10 Z.2\nG92 X0 Y5\nG1 X1 Y5 E1\n", "10", "10", "11", "10");
+    check_track("G1 X10 Y10 Z.2\nG92\nG1 X1 Y1 E1\n", "10", "10", "11", "11");
+    check_track("G1 X10 Y10 Z.2\nG92 X0\nG92.1\nG1 X1 E1\n", "10", "10", "1", "10");
+}
+
+TEST_CASE("G28 homes the axes it names", "[gcode]") {
+    check_track("G1 X10 Y10 Z.2\nG28 X\nG1 Y12 E1\n", "0", "10", "0", "12");
+}
+
+TEST_CASE("inches are 25.4 mm, exactly", "[gcode]") {
+    check_track("G20\nG1 X1 Y0 Z.01\nG1 X1.001 Y.5 E1\nG21\nG1 X0\n", "25.4", "0", "25.4254", "12.7");
+}
+
+TEST_CASE("absolute E: only what it grows by is extruded", "[gcode]") {
+    const GcodePrint print = read("M82\nG1 X0 Y0 Z.2\nG1 X10 E1\nG1 X20 E1\nG1 X30 E.5\nG1 X40 E1.5\n");
+    REQUIRE(print.layers[0].tracks.size() == 2);
+    CHECK(print.layers[0].tracks[0].line == 3);
+    CHECK(print.layers[0].tracks[1].line == 6);
+}
+
+TEST_CASE("relative E: M83 holds through G91 and G90", "[gcode]") {
+    const GcodePrint print = read("M83\nG91\nG1 Z.2\nG90\nG1 X10 E1\nG1 X20 E1\nG1 X30 E0\nG1 X40 E-1\n");
+    CHECK(print.layers[0].tracks.size() == 2);
+}
+
+TEST_CASE("G91 makes E relative too", "[gcode]") {
+    const GcodePrint print = read("G1 Z.2\nG91\nG1 X10 E1\nG1 X10 E1\n");
+    CHECK(print.layers[0].tracks.size() == 2);
+}
+
+TEST_CASE("G92 E0 starts E anew", "[gcode]") {
+    CHECK(read("G1 Z.2\nG1 X10 E5\nG92 E0\nG1 X20 E1\n").layers[0].tracks.size() == 2);
+}
+
+TEST_CASE("every tool has its own E and its own filament", "[gcode]") {
+    const GcodePrint print = read("; filament_diameter = 1.75,2.85\nM82\nG1 Z.2\nT0\nG1 X10 E1\nT1\nG1 X20 E1\nT0\nG1 X30 E2\nT1000\nG1 X40 E3\n");
+    REQUIRE(print.layers[0].tracks.size() == 4);
+    CHECK(width(track(print, 0, 1)) / width(track(print, 0, 0)) == Approx(2.85 * 2.85 / (1.75 * 1.75)).epsilon(0.01));
+    CHECK(track(print, 0, 2).width == track(print, 0, 0).width);
+    CHECK(track(print, 0, 3).width == track(print, 0, 0).width);
+}
+
+TEST_CASE("width from E is the rectangle's, rounded down to 1 um", "[gcode]") {
+    // 0.4 * 0.2 * 10 mm3 of 1.75 mm filament
+    const double e = 0.8 / (std::numbers::pi / 4 * 1.75 * 1.75);
+    const std::string text = "G1 Z.2\nG1 X10 E" + std::to_string(e + 1e-6) + "\n";
+    const GcodePrint usual = read(text);
+    CHECK(track(usual, 0, 0).width == 400000000);
+    GcodeOptions thick;
+    thick.filament_diameter = 2.85;
+    const GcodePrint print = read(text, thick);
+    CHECK(width(track(print, 0, 0)) == Approx(0.4 * 2.85 * 2.85 / 1.75 / 1.75).margin(0.001));
+    CHECK(print.widths_computed == 1);
+}
+
+TEST_CASE("volumetric E counts cubic millimetres", "[gcode]") {
+    const auto width_of = [](const std::string& before) {
+        const GcodePrint print = read(before + "G1 Z.2\nG1 X10 E.8001\n");
+        return width(track(print, 0, 0));
+    };
+    CHECK(width_of("M200 D1.75\n") == Approx(0.4));
+    CHECK(width_of("; use_volumetric_e = 1\n") == Approx(0.4));
+    CHECK(width_of("M200 D1.75\nM200 D0\n") == Approx(0.962).margin(0.001));
+}
+
+TEST_CASE("short stretches share one flow", "[gcode]") {
+    // E rounded to 5 places on stretches of 0.01 mm would scatter widths by a tenth.
+    std::string text = "M83\nG1 Z.2\n";
+    for (int k = 1; k <= 100; ++k) text += "G1 X" + std::to_string(0.01 * k) + " E" + (k % 3 == 0 ? "0.00034" : "0.00033") + "\n";
+    const GcodePrint print = read(text);
+    for (const GcodeTrack& t : print.layers[0].tracks) CHECK(width(t) == Approx(0.4).margin(0.003));
+}
+
+TEST_CASE("how words are written does not matter", "[gcode]") {
+    check_track("g1x1y2z.2\nN12 G01 X 3 (aside) Y4 E1*71\n", "1", "2", "3", "4");
+    check_track("%\nG1 X1 Y2 Z.2 ; go\r\nG1 X3 Y4 E1 ; X9 Y9\r\n", "1", "2", "3", "4");
+}
+
+TEST_CASE("commands that move nothing are passed over", "[gcode]") {
+    check_track("M117 X is 5, E too\nSTART_PRINT BED=60 X=1\nEXCLUDE_OBJECT_DEFINE NAME=a POLYGON=[[1,2],[3,4]]\nG4 P500\nG10\nG11\nG29\n"
+                "M486 S0\nT?\nG1 X1 Y2 Z.2\nG1 X3 Y4 E1\n", "1", "2", "3", "4");
+}
+
+TEST_CASE("arcs become chords within the stated bound", "[gcode][arc]") {
+    struct Case { const char* text; double cx, cy, radius, turn; };
+    const double pi = std::numbers::pi;
+    for (const Case& c : {Case{"G2 X0 Y10 I-10 J0 E1", 0, 0, 10, 1.5 * pi}, Case{"G3 X0 Y10 I-10 J0 E1", 0, 0, 10, 0.5 * pi},
+                          Case{"G3 X10 Y0 I-10 J0 E1", 0, 0, 10, 2 * pi}, Case{"G2 I-10 E1", 0, 0, 10, 2 * pi},
+                          Case{"G3 X0 Y10 R10 E1", 0, 0, 10, 0.5 * pi}, Case{"G2 X0 Y10 R-10 E1", 0, 0, 10, 1.5 * pi},
+                          Case{"G2 X0 Y10 R10 E1", 10, 10, 10, 0.5 * pi}, Case{"G3 X0 Y10 R-10 E1", 10, 10, 10, 1.5 * pi},
+                          Case{"G3 X-10 Y0 R10 E1", 0, 0, 10, pi}, Case{"G3 X-10 Y0.001 I-10 J0 E1", 0, 0, 10, pi}}) {
+        INFO(c.text);
+        const GcodePrint print = read(std::string("G1 X10 Y0 Z.2\n") + c.text + "\n");
+        const GcodeLayer& l = print.layers[0];
+        double sum = 0;
+        for (const GcodeTrack& t : l.tracks) {
+            CHECK(t.chord);
+            sum += length(l, t);
+            for (double s : {0.0, 0.25, 0.5, 1.0}) {
+                const double px = (1 - s) * to_double(l.points[t.a].x) + s * to_double(l.points[t.b].x);
+                const double py = (1 - s) * to_double(l.points[t.a].y) + s * to_double(l.points[t.b].y);
+                CHECK(std::abs(std::hypot(px - c.cx, py - c.cy) - c.radius) < arc_bound_mm);
+            }
+        }
+        CHECK(sum == Approx(c.radius * c.turn).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("an arc ends exactly where the file says", "[gcode][arc]") {
+    const GcodePrint print = read("G1 X10 Y0 Z.2\nG3 X0.00001 Y9.99999 I-10 J0 E1\n");
+    CHECK(x(print.layers[0].points.back()) == decimal("0.00001"));
+    CHECK(y(print.layers[0].points.back()) == decimal("9.99999"));
+}
+
+TEST_CASE("an arc's flow is that of its length", "[gcode][arc]") {
+    const std::string e = std::to_string(std::numbers::pi * 10 * 0.08 / (std::numbers::pi / 4 * 1.75 * 1.75) + 1e-6);
+    const GcodePrint print = read("G1 X10 Y0 Z.2\nG3 X-10 Y0 I-10 E" + e + "\n");
+    for (const GcodeTrack& t : print.layers[0].tracks) CHECK(t.width == 400000000);
+}
+
+TEST_CASE("arcs in inches and relative coordinates", "[gcode][arc]") {
+    const GcodePrint print = read("G20\nG1 X1 Y0 Z.01\nG91\nG3 X-1 Y1 I-1 J0 E1\n");
+    for (const GcodePoint& p : print.layers[0].points) CHECK(std::hypot(to_double(p.x), to_double(p.y)) == Approx(25.4).margin(1e-8));
+    CHECK(x(print.layers[0].points.back()) == 0);
+}
+
+TEST_CASE("filament at rest: dots in ribvault's files, priming elsewhere", "[gcode]") {
+    const GcodePrint own = corpus("ribvault.gcode");
+    REQUIRE(own.layers[1].tracks.size() == 3);
+    CHECK(track(own, 1, 0).a == track(own, 1, 0).b);
+    CHECK(x(own.layers[1].points[0]) == decimal("10.00001"));
+    CHECK(track(own, 1, 0).width == 400000000);
+    CHECK(read("M83\n;WIDTH:.4\nG1 X1 Z.2\nG1 E1\nG1 E1\nG1 X2 E1\n").layers[0].tracks.size() == 1);
+}
+
+TEST_CASE("tracks of one path are told from those after a travel", "[gcode]") {
+    const GcodePrint print = read("M83\nG1 Z.2\nG1 X10 E1\n;TYPE:Overhang perimeter\nG1 X20 E1\nG1 X10\nG1 X20\nG1 X30 E1\n");
+    // the first one was start G-code: a type came after it
+    REQUIRE(print.layers[0].tracks.size() == 2);
+    CHECK_FALSE(print.layers[0].tracks[1].continues);
+    const GcodePrint path = read("M83\nG1 Z.2\n;TYPE:Perimeter\nG1 X10 E1\n;TYPE:Overhang perimeter\nG1 X20 E1\nG1 X30\nG1 X20\nG1 X25 E1\n");
+    CHECK(path.layers[0].tracks[1].continues);
+    CHECK_FALSE(path.layers[0].tracks[2].continues);
+}
