@@ -111,7 +111,6 @@ void Judge::report_gap(const CentreGap& gap) {
 // Whether some of what the stadium of the track has beside the stretch is not supported. Adds what it finds.
 void Judge::find_open_parts(const std::vector<Stretch>& gaps, const std::vector<CentreGap>& centre) {
     const PreparedTrack& t = pair_.above[track_];
-    const Below below{pair_.lower, pair_.below, pair_.radii, near_, seen_};
     const double longest = 6 * t.half;
     for (const Stretch& gap : gaps) {
         const int parts = std::max(1, static_cast<int>(std::min(1e6, std::ceil((gap.hi - gap.lo) / longest))));
@@ -130,17 +129,10 @@ void Judge::find_open_parts(const std::vector<Stretch>& gaps, const std::vector<
                 open.push_back(std::move(part));
                 continue;
             }
-            const PreparedTrack piece = part_of(pair_, part);
-            const Square square{(piece.ax + piece.bx) / 2, (piece.ay + piece.by) / 2,
-                                std::max(std::abs(piece.dx), std::abs(piece.dy)) / 2 + piece.half + 4 * pair_.margin};
             LocalProblem local;
-            const int pieces[] = {part.track};
-            build_local_problem(pair_.upper, pieces, below, square, pair_.margin, local);
-            const std::optional<Uncovered> found = find_uncovered(local.problem, local.window, verdict_.stages);
-            if (!found) continue;
-            const RationalPoint place = local.to_mm(Rational(found->x), Rational(found->y));
-            part.place = {place[0].get_d(), place[1].get_d()};
-            if (options_.regions) part.witness = witness_from(pair_, part.track, local, *found);
+            build_part_problem(pair_, part, local);
+            part.found = find_uncovered(local.problem, local.window, verdict_.stages);
+            if (!part.found) continue;
             open.push_back(std::move(part));
             if (!options_.regions) return;
         }
@@ -177,7 +169,7 @@ void Judge::judge(int index) {
             const bool known = std::any_of(open.begin() + static_cast<std::ptrdiff_t>(before), open.end(), [&](const OpenPart& p) {
                 return p.stretch.lo <= to && p.stretch.hi >= from;
             });
-            if (!known) open.push_back({index, {from - slack, to + slack}, c, {}, {}});
+            if (!known) open.push_back({index, {from - slack, to + slack}, c, {}});
         }
     if (!centre.empty() || open.size() > before) {
         verdict_.supported = false;
