@@ -1,6 +1,7 @@
 // All settings of a run in one struct, checked once at the edge and passed whole.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -52,21 +53,46 @@ struct Settings {
     void check() const;
 };
 
+/// Limits of a machine; axes in the order x, y, z, e. The defaults are those that PrusaSlicer 2.5 assumes for Marlin.
+struct MotionLimits {
+    std::array<double, 4> speed{500, 500, 12, 120};              ///< mm/s
+    std::array<double, 4> acceleration{9000, 9000, 500, 10000};  ///< mm/s²
+    std::array<double, 4> jerk{10, 10, 0.2, 2.5};                ///< mm/s: a change of speed that needs no time
+    double print_acceleration = 1500;                            ///< mm/s², moves that extrude
+    double retract_acceleration = 1500;                          ///< of the filament alone
+    double travel_acceleration = 1500;
+};
+
+/// Whose G-code a printer understands, where they differ: limits of motion, heating, the first lines of a file.
+enum class Flavour { marlin, klipper, reprapfirmware };
+
 /// What decides the G-code but no geometry that is proved.
 struct PrinterSettings {
+    std::string name = "generic";     ///< of the profile
+    Flavour flavour = Flavour::marlin;
     double filament_diameter = 1.75;  ///< mm
     int nozzle_temperature = 205;     ///< °C
-    int bed_temperature = 60;         ///< °C
+    int bed_temperature = 60;         ///< °C; 0: not heated
+    double fan_percent = 100;         ///< from the second layer on
     double print_speed = 40;          ///< mm/s, perimeters and covers
     double support_speed = 60;        ///< mm/s
     double first_layer_speed = 20;    ///< mm/s
     double travel_speed = 150;        ///< mm/s
     double retraction = 3;            ///< mm of filament
     double retraction_speed = 40;     ///< mm/s
-    double retract_over = 1.5;        ///< mm: shorter travels do not retract
+    double retract_over = 2;          ///< mm: a travel with less open air under it does not retract
+    double longest_detour = 20;       ///< mm that a travel may be longer than straight to stay inside the shell
     double prime_surplus = 0.05;      ///< Section 5.1: share of the retraction pushed in addition before a support path
     double surplus_clearance = 1.0;   ///< mm: no surplus when a support path starts nearer to a perimeter
     double bed_x = 250, bed_y = 250, bed_z = 250;  ///< mm
+    bool round_bed = false;           ///< a disc of diameter bed_x
+    bool origin_at_centre = false;    ///< x = y = 0 is the middle of the bed, as on most deltas, not its front left corner
+    MotionLimits limits;              ///< for the time estimate, and written into the file when `write_limits`
+    bool write_limits = false;
+    std::string file_header;          ///< the very first lines of the file
+    std::string start_gcode = "G28 ; home\n";
+    std::string end_gcode = "G91\nG0 Z5 F600 ; off the print\nG90\n";
+    std::string thumbnails = "220x124";  ///< sizes of pictures in the file, W x H, separated by commas; empty: none
 };
 
 }  // namespace ribvault

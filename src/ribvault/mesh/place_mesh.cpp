@@ -136,8 +136,8 @@ Placement place(Mesh& mesh, const PlacementOptions& options) {
     for (std::size_t k = 0; k < 3; ++k) size[k] = placement.scale * extent[k];
     check_size(size, {Rational(options.bed_x), Rational(options.bed_y), Rational(options.bed_z)}, placement.scale);
 
-    placement.offset[0] = middle(options.bed_x) - placement.scale * low[0] - size[0] / 2;
-    placement.offset[1] = middle(options.bed_y) - placement.scale * low[1] - size[1] / 2;
+    placement.offset[0] = middle(options.origin_at_centre ? 0 : options.bed_x) - placement.scale * low[0] - size[0] / 2;
+    placement.offset[1] = middle(options.origin_at_centre ? 0 : options.bed_y) - placement.scale * low[1] - size[1] / 2;
     placement.offset[2] = -placement.scale * low[2];
     return placement;
 }

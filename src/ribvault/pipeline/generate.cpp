@@ -4,15 +4,20 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <numbers>
 #include <thread>
 
 #include "ribvault/error.hpp"
 #include "ribvault/mesh/orient_mesh.hpp"
 #include "ribvault/mesh/read_mesh.hpp"
 #include "ribvault/output_file.hpp"
+#include "ribvault/pipeline/check_bed.hpp"
 #include "ribvault/pipeline/layer_spool.hpp"
 #include "ribvault/pipeline/sweep_layers.hpp"
+#include "ribvault/print/gcode_header.hpp"
+#include "ribvault/print/order_paths.hpp"
 #include "ribvault/print/shell_paths.hpp"
+#include "ribvault/print/skirt.hpp"
 #include "ribvault/print/support_paths.hpp"
 #include "ribvault/print/write_gcode.hpp"
 #include "ribvault/report/layer_svg.hpp"
@@ -29,7 +34,10 @@ double seconds_since(Time::time_point start) { return std::chrono::duration<doub
 /// What one layer adds to the outputs; computed concurrently, collected in order.
 struct LayerOutput {
     LayerReport report;
-    std::string gcode, walls;
+    LayerText text;
+    TravelMap map;
+    Box box;  ///< of the tracks' centre lines
+    std::string walls;
     std::optional<AtomicFile> picture;
 };
 
@@ -39,9 +47,12 @@ public:
 
     RunReport execute() {
         job_.settings.check();
+        job_.tracks.check(job_.settings.nozzle);
+        check_printer(job_.printer);
         report_.version = RIBVAULT_VERSION;
         report_.input_path = job_.model.string();
         report_.settings = job_.settings;
+        report_.tracks = job_.tracks;
         report_.printer = job_.printer;
         read();
         const Slicer slicer(mesh_, report_.placement, job_.settings);
@@ -50,9 +61,10 @@ public:
         times_["read"] = seconds_since(start_);
 
         const auto finish = [&](const SweptLayer& layer, const LayerMaterial* below) { return std::shared_ptr<void>(finish_layer(slicer, layer, below)); };
-        const auto collect = [&](const SweptLayer&, std::shared_ptr<void> output) { collect_layer(*std::static_pointer_cast<LayerOutput>(output)); };
+        const auto collect = [&](const SweptLayer&, std::shared_ptr<void> output) { collect_layer(std::static_pointer_cast<LayerOutput>(output)); };
         times_.merge(sweep_layers(slicer, job_.settings, job_.threads, finish, collect, job_.stop));
         times_.erase("finish");  // its parts are counted one by one
+        if (waiting_) join(nullptr);
         times_["proof"] = 1e-9 * static_cast<double>(proof_), times_["paths"] = 1e-9 * static_cast<double>(paths_);
         times_["pictures"] = 1e-9 * static_cast<double>(pictures_);
         write_outputs();
@@ -63,6 +75,7 @@ private:
     void read() {
         mesh_ = read_mesh(job_.model);
         report_.placement = place(mesh_, job_.placement);
+        check_bed(mesh_, report_.placement, job_.settings, job_.tracks, job_.printer);
         report_.input = examine(mesh_, report_.placement);
         if (report_.input.unbalanced_edges == 0) return;
         if (const std::size_t turned = orient_consistently(mesh_); turned > 0) {
@@ -82,7 +95,6 @@ private:
     }
 
     void open_outputs(int layers) {
-        header_ = gcode_header(job_.settings, job_.printer, layers);
         if (job_.gcode) {
             gcode_.emplace(*job_.gcode);
             spool_.emplace();
@@ -116,16 +128,21 @@ private:
         proof_ += (Time::now() - from).count();
 
         from = Time::now();
-        LayerPaths paths;
-        paths.layer = layer.layer;
-        append_shell_paths(*layer.slice, layer.cavity->region, s, paths);
-        append_support_paths(swept.forest, s, paths);
-        LayerText text = gcode_layer(paths, s, job_.printer);
-        if (job_.gcode) output->gcode = std::move(text.text);
+        LayerPlan plan;
+        plan.layer = layer.layer;
+        append_shell_paths(*layer.slice, layer.cavity->region, s, job_.tracks, plan);
+        append_support_paths(swept.forest, s, plan);
+        const LayerPaths paths = order_paths(std::move(plan), layer.slice->rounded);
+        output->map = TravelMap(layer.slice->rounded, layer.cavity->region, paths);
+        const std::vector<ToolPath> beside = layer.layer == 0 ? skirt_and_brim(layer.slice->rounded, s, job_.tracks) : std::vector<ToolPath>();
+        output->text = gcode_layer(paths, output->map, s, job_.printer, beside);
+        for (const std::vector<ToolPath>* all : {&beside, &paths.paths})
+            for (const ToolPath& path : *all)
+                for (Point p : path.points) output->box.add(p);
         paths_ += (Time::now() - from).count();
 
         const double height = to_mm(layer.layer == 0 ? s.first_layer_height : s.layer_height);
-        const PrintStatistics& p = text.statistics;
+        const PrintStatistics& p = output->text.statistics;
         r.layer = layer.layer;
         r.z_mm = slicer.plane_height(layer.layer).get_d();
         r.shell_area_mm2 = area_to_mm2(signed_area(layer.slice->rounded) - signed_area(layer.cavity->region));
@@ -137,7 +154,11 @@ private:
         r.gaps = paths.gaps;
         r.perimeter_length_mm = p.length[of(TrackKind::outer_perimeter)] + p.length[of(TrackKind::inner_perimeter)];
         r.cover_length_mm = p.length[of(TrackKind::cover)];
+        r.thin_wall_length_mm = p.length[of(TrackKind::thin_wall)];
+        r.thin_places = paths.thin_places;
+        r.thin_area_mm2 = area_to_mm2(paths.thin_area);
         r.filament_mm = p.filament;
+        for (double volume : p.volume) r.extruded_mm3 += volume;
         r.trees = static_cast<int>(num_vertices(swept.forest) - num_edges(swept.forest));
         r.closings = layer.closings;
 
@@ -159,8 +180,13 @@ private:
 
     static LayerGeometry geometry(const LayerMaterial& layer) { return {layer.slice->exact.get(), &layer.cavity->region, *layer.tracks}; }
 
-    void collect_layer(LayerOutput& output) {
-        if (spool_) spool_->add(output.gcode);
+    /// Layers come from the top. Each waits for the one below it, to which it is joined then.
+    void collect_layer(std::shared_ptr<LayerOutput> next) {
+        LayerOutput& output = *next;
+        if (waiting_)
+            join(&output.text);
+        else
+            end_of_layers_ = gcode_end_of_layers(output.text, job_.printer, output.text.statistics);
         if (output.picture) svgs_.push_back(std::move(*output.picture));
         if (walls_) {
             facets_ += static_cast<std::uint32_t>(output.walls.size() / 50);
@@ -169,8 +195,26 @@ private:
             else
                 walls_->write(output.walls);
         }
+        if (!output.box.empty()) box_.add(output.box.lo), box_.add(output.box.hi);
+        waiting_ = std::move(next);
+        job_.progress(static_cast<int>(report_.layers.size()) + 1, total_);
+    }
+
+    /// Writes the layer that waits, with the way to it from the one below (nullptr under layer 0).
+    void join(const LayerText* below) {
+        LayerOutput& output = *waiting_;
+        const auto from = Time::now();
+        PrintStatistics& p = output.text.statistics;
+        const std::string joint = gcode_joint(below, output.text, output.map, job_.settings, job_.printer, p);
+        if (spool_) spool_->add(joint + output.text.body);
+        LayerReport& r = output.report;
+        r.travels = p.travels, r.travel_mm = p.travel, r.open_air_mm = p.open_air;
+        r.retractions = p.retractions, r.detours = p.detours;
+        r.prime_surplus_mm3 = p.prime_surplus * std::numbers::pi / 4 * job_.printer.filament_diameter * job_.printer.filament_diameter;
+        r.print_seconds = p.seconds;
         report_.layers.push_back(std::move(output.report));
-        job_.progress(static_cast<int>(report_.layers.size()), total_);
+        waiting_.reset();
+        paths_ += (Time::now() - from).count();
     }
 
     void write_outputs() {
@@ -179,9 +223,11 @@ private:
             throw Error(ErrorKind::bad_geometry, job_.model.string() + ": the mesh encloses no volume; is it a surface without thickness?");
         const auto from = Time::now();
         if (gcode_) {
-            gcode_->write(header_);
+            const PrintFacts facts{total_, report_.totals.print_seconds, report_.totals.filament_mm, box_, to_mm(top_of_layer(total_ - 1, job_.settings))};
+            gcode_->write(gcode_header(job_.settings, job_.tracks, job_.printer, facts));
             spool_->replay_backwards([&](std::string_view text) { gcode_->write(text); });
-            gcode_->write(gcode_footer());
+            gcode_->write(end_of_layers_);
+            gcode_->write(gcode_footer(job_.settings, job_.printer, facts));
             gcode_->finish();
         }
         if (walls_) {
@@ -211,7 +257,9 @@ private:
     Time::time_point start_;
     Mesh mesh_;
     RunReport report_;
-    std::string header_, kept_walls_;
+    std::string kept_walls_, end_of_layers_;
+    std::shared_ptr<LayerOutput> waiting_;
+    Box box_;
     std::optional<AtomicFile> gcode_, json_, walls_;
     std::optional<LayerSpool> spool_;
     std::vector<AtomicFile> svgs_;

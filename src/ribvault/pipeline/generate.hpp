@@ -17,6 +17,7 @@ struct Job {
     std::optional<std::filesystem::path> gcode, report, svg, mesh;  ///< what to write; svg is a folder
     PlacementOptions placement;
     Settings settings;
+    TrackSettings tracks;
     PrinterSettings printer;
     int threads = 0;  ///< 0: all processors
     std::function<void(int done, int total)> progress = [](int, int) {};

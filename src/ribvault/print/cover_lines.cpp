@@ -28,6 +28,7 @@ struct Fill {
     Region contours;
     std::vector<Unit> lines;          ///< c of every line, ascending
     std::vector<Crossing> crossings;  ///< in the order of the contours
+    std::vector<std::vector<std::size_t>> pieces_by_line;  ///< left ends
 };
 
 Unit level(Point p) { return p.y - p.x; }
@@ -94,6 +95,7 @@ std::vector<std::size_t> pair_crossings(Fill& fill) {
         if (a.fraction != b.fraction) return b.fraction;
         return i < j;
     });
+    fill.pieces_by_line.resize(fill.lines.size());
     for (std::size_t i = 0; i + 1 < order.size(); i += 2) {
         Crossing &left = fill.crossings[order[i]], &right = fill.crossings[order[i + 1]];
         const Unit c = fill.lines[left.line], lo = left.floor + (left.fraction ? 1 : 0), hi = right.floor;
@@ -101,6 +103,7 @@ std::vector<std::size_t> pair_crossings(Fill& fill) {
         left.at = {lo, lo + c}, right.at = {hi, hi + c};
         left.used = right.used = lo >= hi;
         pieces.push_back(order[i]);
+        fill.pieces_by_line[left.line].push_back(order[i]);
     }
     return pieces;
 }
@@ -124,26 +127,46 @@ std::optional<Contour> boundary_between(const Fill& fill, std::size_t a, double 
     return way;
 }
 
+/// Whether a piece on the line below, beside the one that begins at `crossing`, is not printed yet. Pieces beside each other
+/// overlap along the lines.
+bool waits(const Fill& fill, std::size_t crossing) {
+    const auto ends = [&](std::size_t i) { return std::minmax(fill.crossings[i].floor, fill.crossings[fill.crossings[i].across].floor); };
+    const std::size_t line = fill.crossings[crossing].line;
+    if (line == 0) return false;
+    const auto [lo, hi] = ends(crossing);
+    // The lines rise at 45 degrees: a step across them moves the abscissa by half their distance in c.
+    const Unit shift = (fill.lines[line] - fill.lines[line - 1]) / 2;
+    for (std::size_t i : fill.pieces_by_line[line - 1]) {
+        if (fill.crossings[i].used) continue;
+        const auto [below_lo, below_hi] = ends(i);
+        if (below_lo - shift <= hi && below_hi - shift >= lo) return true;
+    }
+    return false;
+}
+
 /// The end of an unused piece on a neighbouring line to which `from` can be joined; `way` gets what lies between.
-std::optional<std::size_t> link_from(const Fill& fill, std::size_t from, double limit, Contour& way) {
+std::optional<std::size_t> link_from(const Fill& fill, std::size_t from, double limit, bool monotonic, Contour& way) {
     const Crossing& here = fill.crossings[from];
-    for (const bool upwards : {true, false})
+    for (const bool upwards : {true, false}) {
+        if (monotonic && !upwards) break;
         for (const bool forwards : {true, false}) {
             const std::size_t other = forwards ? here.next : here.previous;
             const Crossing& there = fill.crossings[other];
             if (there.used || there.line != (upwards ? here.line + 1 : here.line - 1)) continue;
+            if (monotonic && waits(fill, other)) continue;
             std::optional<Contour> between = boundary_between(fill, forwards ? from : other, limit);
             if (!between) continue;
             if (!forwards) std::reverse(between->begin(), between->end());
             way = std::move(*between);
             return other;
         }
+    }
     return std::nullopt;
 }
 
 }  // namespace
 
-std::vector<Contour> cover_lines(const Region& area, Unit width, bool falling) {
+std::vector<Contour> cover_lines(const Region& area, Unit width, bool falling, bool monotonic) {
     const auto turned = [falling](Point p) { return falling ? Point{-p.x, p.y} : p; };
     Fill fill;
     fill.contours = area;
@@ -166,7 +189,7 @@ std::vector<Contour> cover_lines(const Region& area, Unit width, bool falling) {
             add(entry.at);
             add(exit.at);
             way.clear();
-            in = link_from(fill, entry.across, 2 * static_cast<double>(width), way);
+            in = link_from(fill, entry.across, 2 * static_cast<double>(width), monotonic, way);
             for (Point p : way) add(p);
         }
         tracks.push_back(std::move(track));

@@ -1,96 +1,137 @@
 #include "ribvault/print/shell_paths.hpp"
 
 #include <algorithm>
-#include <polyclipping/clipper.hpp>
 
 #include "ribvault/print/cover_lines.hpp"
-#include "ribvault/print/nearest_order.hpp"
+#include "ribvault/print/medial_tracks.hpp"
+#include "ribvault/slice/lattice_clip.hpp"
 
 namespace ribvault {
 namespace {
 
 namespace cl = ClipperLib;
 
-constexpr double miter_limit = 2;
-
-cl::Paths to_clipper(const Region& region) {
-    cl::Paths paths(region.size());
-    for (std::size_t i = 0; i < region.size(); ++i)
-        for (Point p : region[i]) paths[i].emplace_back(p.x, p.y);
-    return paths;
-}
-
-Contour from_clipper(const cl::Path& path) {
-    Contour contour;
-    contour.reserve(path.size());
-    for (const cl::IntPoint& p : path) contour.push_back({p.X, p.Y});
-    return contour;
-}
-
 /// Dilation by a distance in lattice units, erosion by a negative one. Mitres keep at least this distance everywhere.
-cl::Paths offset(const cl::Paths& paths, double distance) {
-    cl::ClipperOffset offset(miter_limit);
-    offset.AddPaths(paths, cl::jtMiter, cl::etClosedPolygon);
-    cl::Paths result;
-    offset.Execute(result, distance);
-    return result;
+Region mitred(const Region& region, double distance) { return offset(region, distance, cl::jtMiter); }
+
+double distance(Point p, Point a, Point b) {
+    const double dx = static_cast<double>(b.x - a.x), dy = static_cast<double>(b.y - a.y);
+    const double tx = static_cast<double>(p.x - a.x), ty = static_cast<double>(p.y - a.y);
+    const double square = dx * dx + dy * dy, t = square > 0 ? std::clamp((tx * dx + ty * dy) / square, 0.0, 1.0) : 0;
+    return std::hypot(tx - t * dx, ty - t * dy);
 }
 
-void append_in_nearest_order(std::vector<ToolPath> paths, LayerPaths& layer) {
-    std::vector<PathEnds> ends;
-    for (const ToolPath& path : paths) ends.push_back({path.points.front(), end_of(path)});
-    for (std::size_t i : nearest_order(ends, nozzle_after(layer))) layer.paths.push_back(std::move(paths[i]));
+double distance(Point p, const Contour& ring) {
+    double nearest = distance(p, ring.back(), ring.front());
+    for (std::size_t i = 1; i < ring.size(); ++i) nearest = std::min(nearest, distance(p, ring[i - 1], ring[i]));
+    return nearest;
 }
 
-void append_perimeters(const cl::Paths& outline, const Settings& settings, LayerPaths& layer) {
-    const double width = static_cast<double>(settings.nozzle);
+bool more_to_the_rear(Point a, Point b) { return a.y != b.y ? a.y > b.y : a.x < b.x; }
+
+/// How far the contour turns at vertex i, in steps of 10 degrees, so that corners alike from layer to layer compare equal.
+int turn_at(const Contour& ring, std::size_t i) {
+    const std::size_t n = ring.size();
+    const Point in = ring[i] - ring[(i + n - 1) % n], out = ring[(i + 1) % n] - ring[i];
+    const double cross = static_cast<double>(in.x) * static_cast<double>(out.y) - static_cast<double>(in.y) * static_cast<double>(out.x);
+    const double dot = static_cast<double>(in.x) * static_cast<double>(out.x) + static_cast<double>(in.y) * static_cast<double>(out.y);
+    return static_cast<int>(std::fabs(std::atan2(cross, dot)) * 18 / 3.14159265358979 + 0.5);
+}
+
+void put_seam_first(Contour& ring, Seam seam) {
+    std::size_t best = 0;
+    int sharpest = seam == Seam::corner ? turn_at(ring, 0) : 0;
+    for (std::size_t i = 1; i < ring.size(); ++i) {
+        const int turn = seam == Seam::corner ? turn_at(ring, i) : 0;
+        if (turn > sharpest || (turn == sharpest && more_to_the_rear(ring[i], ring[best]))) best = i, sharpest = turn;
+    }
+    std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(best), ring.end());
+}
+
+/// The perimeters by ring, j = 0 outermost, as numbers of tracks in the plan.
+void append_perimeters(const Region& outermost, Unit w, const Settings& settings, const TrackSettings& tracks, const Region& outline,
+                       LayerPlan& plan) {
+    const double width = static_cast<double>(w);
+    std::vector<std::vector<std::size_t>> rings;
     for (int j = 0; j < settings.perimeters; ++j) {
-        std::vector<ToolPath> paths;
-        for (const cl::Path& line : offset(outline, -(j + 0.5) * width)) {
-            ToolPath path{j == 0 ? TrackKind::outer_perimeter : TrackKind::inner_perimeter, settings.nozzle, true,
-                          from_clipper(line)};
+        rings.emplace_back();
+        for (Contour& line : j == 0 ? Region(outermost) : mitred(outline, -(j + 0.5) * width)) {
+            ToolPath path{j == 0 ? TrackKind::outer_perimeter : TrackKind::inner_perimeter, w, true, std::move(line)};
             if (2 * length(path) < width) continue;
-            const auto rear = std::max_element(path.points.begin(), path.points.end(), [](Point a, Point b) {
-                return a.y != b.y ? a.y < b.y : a.x > b.x;
-            });
-            std::rotate(path.points.begin(), rear, path.points.end());
-            paths.push_back(std::move(path));
+            put_seam_first(path.points, tracks.seam);
+            const Entry entry = j == 0 && tracks.seam != Seam::nearest ? Entry::fixed : Entry::anywhere;
+            rings.back().push_back(plan.tracks.size());
+            plan.tracks.push_back({{std::move(path)}, entry, no_stop});
         }
-        append_in_nearest_order(std::move(paths), layer);
+    }
+    if (tracks.inner_first) std::reverse(rings.begin(), rings.end());
+    for (std::size_t j = 1; j < rings.size(); ++j)
+        for (std::size_t t : rings[j]) {
+            double nearest = std::numeric_limits<double>::infinity();
+            const Point p = plan.tracks[t].paths.front().points.front();
+            for (std::size_t other : rings[j - 1])
+                if (const double far = distance(p, plan.tracks[other].paths.front().points); far < nearest)
+                    nearest = far, plan.tracks[t].after = other;
+        }
+}
+
+void append_thin_walls(const Region& outline, const Region& outermost, Unit w, bool printed, LayerPlan& plan) {
+    const double width = static_cast<double>(w), smallest = width * width / 16;
+    const Region filled = mitred(outermost, width / 2);
+    if (signed_area(outline) - signed_area(filled) < smallest) return;
+    // Ten lattice units more, so that no slivers of rounding are left.
+    for (const Region& piece : connected_pieces(clip(cl::ctDifference, outline, mitred(outermost, width / 2 + 10)))) {
+        const double area = signed_area(piece);
+        if (area < smallest) continue;
+        std::vector<PlannedTrack> walls;
+        if (printed && area >= width * width / 2) walls = medial_tracks(piece, w, TrackKind::thin_wall);
+        if (walls.empty()) ++plan.thin_places, plan.thin_area += area;
+        std::move(walls.begin(), walls.end(), std::back_inserter(plan.tracks));
     }
 }
 
 /// Where centre lines of covers may run, as connected areas with their holes. Eroding O_i \ C_i is eroding O_i and
 /// dilating C_i, and keeps Clipper away from the nearly coincident borders of the two.
-std::vector<Region> cover_areas(const cl::Paths& outline, const Region& cavity, const Settings& settings) {
-    const double width = static_cast<double>(settings.nozzle);
-    cl::Clipper clipper;
-    clipper.AddPaths(offset(outline, -(settings.perimeters + 0.5) * width), cl::ptSubject, true);
-    clipper.AddPaths(offset(to_clipper(cavity), width / 2), cl::ptClip, true);
-    cl::PolyTree tree;
-    clipper.Execute(cl::ctDifference, tree, cl::pftNonZero, cl::pftNonZero);
-    std::vector<Region> areas;
-    for (const cl::PolyNode* node = tree.GetFirst(); node; node = node->GetNext()) {
-        if (node->IsHole()) continue;
-        Region area{from_clipper(node->Contour)};
-        for (const cl::PolyNode* hole : node->Childs) area.push_back(from_clipper(hole->Contour));
-        areas.push_back(std::move(area));
+std::vector<Region> cover_areas(const Region& outline, const Region& cavity, int perimeters, double width) {
+    return connected_pieces(clip(cl::ctDifference, mitred(outline, -(perimeters + 0.5) * width), mitred(cavity, width / 2)));
+}
+
+void append_concentric(Region area, Unit w, LayerPlan& plan) {
+    const double width = static_cast<double>(w);
+    while (!area.empty()) {
+        Region next = mitred(area, -width);
+        if (next.empty())
+            for (PlannedTrack& middle : medial_tracks(mitred(area, -width / 2), w, TrackKind::cover)) plan.tracks.push_back(std::move(middle));
+        for (Contour& ring : area) {
+            ToolPath path{TrackKind::cover, w, true, std::move(ring)};
+            if (2 * length(path) >= width) plan.tracks.push_back({{std::move(path)}, Entry::anywhere, no_stop});
+        }
+        area = std::move(next);
     }
-    return areas;
+}
+
+void append_covers(const Region& area, Unit w, bool falling, CoverPattern pattern, LayerPlan& plan) {
+    if (pattern == CoverPattern::concentric) return append_concentric(area, w, plan);
+    const bool monotonic = pattern == CoverPattern::monotonic;
+    std::size_t before = no_stop;
+    for (Contour& line : cover_lines(area, w, falling, monotonic)) {
+        ToolPath path{TrackKind::cover, w, false, std::move(line)};
+        if (2 * length(path) < static_cast<double>(w)) continue;
+        plan.tracks.push_back({{std::move(path)}, monotonic ? Entry::fixed : Entry::either_end, before});
+        if (monotonic) before = plan.tracks.size() - 1;
+    }
 }
 
 }  // namespace
 
-void append_shell_paths(const Slice& slice, const Region& cavity, const Settings& settings, LayerPaths& layer) {
-    const cl::Paths outline = to_clipper(slice.rounded);
-    append_perimeters(outline, settings, layer);
-    std::vector<ToolPath> covers;
-    for (const Region& area : cover_areas(outline, cavity, settings))
-        for (Contour& line : cover_lines(area, settings.nozzle, slice.layer % 2 != 0)) {
-            ToolPath path{TrackKind::cover, settings.nozzle, false, std::move(line)};
-            if (2 * length(path) >= static_cast<double>(settings.nozzle)) covers.push_back(std::move(path));
-        }
-    append_in_nearest_order(std::move(covers), layer);
+void append_shell_paths(const Slice& slice, const Region& cavity, const Settings& settings, const TrackSettings& tracks, LayerPlan& plan) {
+    const Unit w = tracks.width_on(slice.layer, settings.nozzle);
+    const Region& outline = slice.rounded;
+    const Region outermost = mitred(outline, -static_cast<double>(w) / 2);
+    append_perimeters(outermost, w, settings, tracks, outline, plan);
+    append_thin_walls(outline, outermost, w, tracks.thin_walls, plan);
+    for (const Region& area : cover_areas(outline, cavity, settings.perimeters, static_cast<double>(w)))
+        append_covers(area, w, slice.layer % 2 != 0, tracks.covers, plan);
 }
 
 }  // namespace ribvault

@@ -1,25 +1,28 @@
-// From the shell B_i to printed tracks: perimeters along the slice's boundary, covers as straight fill.
+// From the shell B_i to tracks: perimeters along the slice's boundary, thin walls, covers.
 #pragma once
 
-#include "ribvault/print/tool_path.hpp"
+#include "ribvault/print/layer_plan.hpp"
+#include "ribvault/print/track_settings.hpp"
 #include "ribvault/slice/slice.hpp"
 
 namespace ribvault {
 
-/// Appends the tracks of B_i = O_i \ C_i to a layer, perimeters first.
+/// Appends the tracks of B_i = O_i \ C_i to a plan. w is d = `settings.nozzle`, on layer 0 the first layer's width.
 ///
-/// Perimeters: closed tracks of width d = `settings.nozzle` whose centre lines run at distance (j + 1/2) d inside O_i
-/// (`slice.rounded`), j = 0 .. p - 1, the outermost first; corners are mitred up to twice the distance. A track starts
-/// at its rearmost point (largest y, then smallest x), and tracks of equal j follow each other by nearest start.
+/// Perimeters: closed tracks of width w whose centre lines run at distance (j + 1/2) w inside O_i (`slice.rounded`),
+/// j = 0 .. p - 1; corners are mitred up to twice the distance. Each comes after the one beside it that is nearer to the
+/// outside (with `inner_first`: to the inside). Outer ones start where `tracks.seam` says, inner ones anywhere.
 ///
-/// Covers: what the perimeters and the cavity C_i (`cavity`) leave of O_i is filled with straight tracks of width d, d
-/// apart, at 45° on even layers and at 135° on odd ones, linked where the way along the border is at most 2 d. Their
-/// centre lines keep d / 2 from the border of this area, so that their material stays in it.
+/// Thin walls: what of O_i no outer perimeter fills because it is narrower than w gets medial_tracks where it is at least
+/// w / 2 wide. Places still narrower are counted in the plan with their area, as are all without `tracks.thin_walls`.
 ///
-/// Places narrower than d (2 p d for all p perimeters together) have no room for a track and get none; neither are
-/// tracks printed that are shorter than d / 2.
-/// Postcondition: centre lines of perimeters and covers lie at least d / 2 inside O_i, but for two lattice units
+/// Covers: what the perimeters and the cavity C_i (`cavity`) leave of O_i is filled by `tracks.covers`: straight tracks of
+/// width w, w apart, at 45° on even layers and at 135° on odd ones, or closed ones along the border with medial_tracks
+/// where they leave a middle. Their centre lines keep w / 2 from the border of this area, so that their material stays in
+/// it. Tracks shorter than w / 2 are left out.
+///
+/// Postcondition: centre lines of perimeters and covers lie at least w / 2 inside O_i, but for two lattice units
 /// (20 nm) of rounding; the same holds for covers and the complement of the cavity.
-void append_shell_paths(const Slice& slice, const Region& cavity, const Settings& settings, LayerPaths& layer);
+void append_shell_paths(const Slice& slice, const Region& cavity, const Settings& settings, const TrackSettings& tracks, LayerPlan& plan);
 
 }  // namespace ribvault

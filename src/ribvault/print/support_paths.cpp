@@ -5,7 +5,6 @@
 #include <string>
 
 #include "ribvault/error.hpp"
-#include "ribvault/print/nearest_order.hpp"
 
 namespace ribvault {
 namespace {
@@ -31,6 +30,8 @@ struct RootedForest {
     /// width where a path runs through.
     std::vector<double> gap;
     std::vector<char> seen;
+    /// The track of the plan that runs through the vertex; where the branch is too short to be printed, the one before it.
+    std::vector<std::size_t> printed_by;
 
     RootedForest(const SupportForest& f, Unit w)
         : forest(f),
@@ -40,7 +41,8 @@ struct RootedForest {
           first_layer(num_vertices(f), 0),
           reach(num_vertices(f), 0),
           gap(num_vertices(f), 0),
-          seen(num_vertices(f), 0) {}
+          seen(num_vertices(f), 0),
+          printed_by(num_vertices(f), no_stop) {}
 
     Point at(Vertex v) const { return forest[v].at; }
 };
@@ -137,7 +139,7 @@ void set_gaps_along(RootedForest& f, const std::vector<Vertex>& vertices, double
     if (printed && gap <= 0) f.gap[vertices.front()] = width;
 }
 
-void append_tree(RootedForest& f, Vertex root, LayerPaths& layer, std::vector<ToolPath>& paths) {
+void append_tree(RootedForest& f, Vertex root, LayerPlan& plan) {
     std::vector<Branch> left;
     std::vector<Vertex> children, vertices;
     children_by_rank(f, root, children);
@@ -152,44 +154,39 @@ void append_tree(RootedForest& f, Vertex root, LayerPaths& layer, std::vector<To
             vertices.push_back(children.front());
         }
         const double whole = f.edge_length[branch.into] + f.reach[branch.into];
-        const double gap = f.first_layer[branch.into] ? 0 : f.gap[branch.junction];
+        const bool first_layer = f.first_layer[branch.into];
+        const double gap = first_layer ? 0 : f.gap[branch.junction];
         std::vector<Point> points;
         if (whole > gap) points = points_after_gap(f, vertices, gap);
         const bool printed = points.size() > 1;
         if (gap > 0 && whole > 0) {
-            ++layer.gaps;
-            layer.gap_length += round_to_lattice(printed ? gap : whole);
+            ++plan.gaps;
+            plan.gap_length += round_to_lattice(printed ? gap : whole);
         }
         set_gaps_along(f, vertices, gap, printed);
-        if (printed) paths.push_back({TrackKind::support, f.width, false, std::move(points)});
+        const std::size_t above = f.printed_by[branch.junction], own = printed ? plan.tracks.size() : above;
+        for (std::size_t i = 1; i < vertices.size(); ++i) f.printed_by[vertices[i]] = own;
+        if (!printed) continue;
+        if (above == no_stop) f.printed_by[branch.junction] = own;
+        const Entry entry = first_layer ? Entry::fixed : Entry::either_end;
+        plan.tracks.push_back({{{TrackKind::support, f.width, false, std::move(points)}}, entry, above});
     }
 }
 
 }  // namespace
 
-void append_support_paths(const SupportForest& forest, const Settings& settings, LayerPaths& layer) {
+void append_support_paths(const SupportForest& forest, const Settings& settings, LayerPlan& plan) {
     RootedForest f(forest, settings.nozzle);
-    std::vector<ToolPath> paths;
-    std::vector<std::size_t> tree_begin;
     for (Vertex v = 0; v < num_vertices(forest); ++v) {
         if (f.seen[v] || !forest[v].root) continue;
-        hang_from_root(f, v, layer.layer);
-        const std::size_t begin = paths.size();
+        hang_from_root(f, v, plan.layer);
         if (out_degree(v, forest) == 0)
-            paths.push_back({TrackKind::support, settings.nozzle, false, {f.at(v)}});
+            plan.tracks.push_back({{{TrackKind::support, settings.nozzle, false, {f.at(v)}}}, Entry::fixed, no_stop});
         else
-            append_tree(f, v, layer, paths);
-        if (paths.size() > begin) tree_begin.push_back(begin);
+            append_tree(f, v, plan);
     }
     for (Vertex v = 0; v < num_vertices(forest); ++v)
-        if (!f.seen[v]) throw_not_a_forest(layer.layer, f.at(v), "has no root");
-
-    tree_begin.push_back(paths.size());
-    std::vector<PathEnds> trees;
-    for (std::size_t t = 0; t + 1 < tree_begin.size(); ++t)
-        trees.push_back({paths[tree_begin[t]].points.front(), paths[tree_begin[t + 1] - 1].points.back()});
-    for (std::size_t t : nearest_order(trees, nozzle_after(layer)))
-        for (std::size_t i = tree_begin[t]; i < tree_begin[t + 1]; ++i) layer.paths.push_back(std::move(paths[i]));
+        if (!f.seen[v]) throw_not_a_forest(plan.layer, f.at(v), "has no root");
 }
 
 }  // namespace ribvault

@@ -1,17 +1,18 @@
 // From a forest of supports to printed tracks: trunks before branches, gaps at the junctions (Section 4.4).
 #pragma once
 
-#include "ribvault/print/tool_path.hpp"
+#include "ribvault/print/layer_plan.hpp"
 
 namespace ribvault {
 
-/// Appends the tracks of S_i to a layer and adds to its gaps (Section 4.4, "Printing support trees").
+/// Appends the tracks of S_i to a plan and adds to its gaps (Section 4.4, "Printing support trees").
 ///
 /// Every tree is walked from its root with the smallest index; its other roots are vertices like any. At a junction
 /// the path goes on into the subtree that reaches farthest along its edges; ties prefer the straighter continuation,
-/// then the smaller vertex index. What it leaves aside is printed later, outwards from the junction, always after the
-/// path that runs through the junction, the junctions nearest the end of that path first. Trees follow each other by
-/// nearest root. A dot (isolated vertex) becomes a path of one point.
+/// then the smaller vertex index. What it leaves aside becomes a track of its own, `after` the path that runs through the
+/// junction (after the nearest printed path above it, when that is too short to be printed). A track may be printed from
+/// its other end, except on its first layer: then it begins at the junction, where it sticks, because below it there is
+/// nothing. A dot (isolated vertex) becomes a path of one point.
 ///
 /// Only the first path runs through a junction. A later branch starts one track width (`settings.nozzle`) short of it,
 /// measured along the branch, unless its first edge has first_layer set: then it starts at the junction. A branch that
@@ -21,9 +22,8 @@ namespace ribvault {
 ///
 /// Precondition: every component of the forest is a tree with at least one root.
 /// Postcondition: every point is a vertex of the forest or the end of a gap (rounded once to the lattice); consecutive
-/// points differ; the lengths of the new paths and gaps add up to the forest's length but for this rounding. The
-/// result depends on the forest, the settings and where the last path of `layer` ends, on nothing else.
+/// points differ; the lengths of the new paths and gaps add up to the forest's length but for this rounding.
 /// Throws Error (bad_geometry) naming layer and coordinates when a component has a cycle or no root.
-void append_support_paths(const SupportForest& forest, const Settings& settings, LayerPaths& layer);
+void append_support_paths(const SupportForest& forest, const Settings& settings, LayerPlan& plan);
 
 }  // namespace ribvault

@@ -8,7 +8,14 @@
 
 namespace ribvault {
 
-enum class TrackKind { outer_perimeter, inner_perimeter, cover, support };
+enum class TrackKind {
+    outer_perimeter,
+    inner_perimeter,
+    cover,
+    support,
+    thin_wall,  ///< a part of the slice narrower than one track, as a track of its own width
+    skirt       ///< skirt and brim: beside the object, never among the paths of a layer
+};
 
 /// One continuous extrusion: centre line on the lattice, material is within width / 2 of it. A single point is a dot, a
 /// disc extruded in place.
@@ -30,12 +37,14 @@ inline double length(const ToolPath& path) {
     return sum;
 }
 
-/// The tracks of layer i in printing order: perimeters, covers, supports (Section 4.4).
+/// The tracks of layer i in printing order: island by island perimeters, thin walls, covers, supports (Section 4.4).
 struct LayerPaths {
     int layer = 0;
     std::vector<ToolPath> paths;
     int gaps = 0;           ///< how many branches stop one track width short of their junction (Section 4.4)
     Unit gap_length = 0;    ///< what these gaps take from the supports' length, in lattice units
+    int thin_places = 0;    ///< places of the slice too narrow for any track: they are not printed
+    double thin_area = 0;   ///< their area in square lattice units
 };
 
 }  // namespace ribvault

@@ -1,15 +1,17 @@
-// G-code out: Marlin flavour, absolute coordinates, relative extrusion.
+// Layers as G-code: absolute coordinates, relative extrusion. Header and footer: print/gcode_header.hpp.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 
-#include "ribvault/print/tool_path.hpp"
+#include "ribvault/print/motion_time.hpp"
+#include "ribvault/print/travel_map.hpp"
 
 namespace ribvault {
 
-inline constexpr std::size_t track_kinds = 4;  ///< how many values TrackKind has
+inline constexpr std::size_t track_kinds = 6;  ///< how many values TrackKind has
 
 /// What a piece of G-code extrudes and moves. Millimetres of track, mm³, millimetres of filament.
 struct PrintStatistics {
@@ -17,40 +19,57 @@ struct PrintStatistics {
     std::array<double, track_kinds> volume{};  ///< mm³ by TrackKind: length times width times layer height, and dots
     double filament = 0;                       ///< mm pushed along tracks; retractions and surplus not counted
     double prime_surplus = 0;                  ///< mm of filament pushed in addition before support paths (Section 5.1)
-    double travel = 0;                         ///< mm inside layers; the way to a layer's first track is not known
-    int travels = 0;                           ///< the way to a layer's first track included
+    double travel = 0;                         ///< mm in x and y
+    double open_air = 0;                       ///< mm of the travels over the cavity
+    double seconds = 0;                        ///< by motion_seconds, standing at the joints between layers
+    int travels = 0;                           ///< ways between tracks, whatever the number of moves
     int retractions = 0;
+    int detours = 0;                           ///< travels that go around to stay inside the shell
     PrintStatistics& operator+=(const PrintStatistics& other);
 };
 
+/// Where a layer's tracks begin or end.
+struct TrackEnd {
+    Point at;
+    Unit width = 0;
+};
+
+/// A layer without the way to it from the layer below, so that layers can be written in any order.
 struct LayerText {
-    std::string text;
-    PrintStatistics statistics;
+    int layer = 0;
+    std::string heading;  ///< comments: `;LAYER:n`, `;Z:`, `;HEIGHT:`
+    std::string body;     ///< from the first track's start, filament primed, to the last track's end, not retracted
+    std::optional<TrackEnd> first, last;  ///< nothing for a layer without tracks
+    bool surplus = false;                 ///< a prime before the first track has the surplus
+    PrintStatistics statistics;           ///< of the body
 };
 
 /// Height of the top of a layer over the bed: layer 0 is `first_layer_height` high, all others `layer_height`.
 Unit top_of_layer(int layer, const Settings& settings);
 
-/// What comes before the first layer: settings as comments, heating, homing. Ends with the filament retracted.
-/// Throws Error (usage) naming the first printer setting with which no G-code can be written.
-std::string gcode_header(const Settings& settings, const PrinterSettings& printer, int layer_count);
-
-/// One layer: `;LAYER:n`, `;Z:`, `;HEIGHT:` and for every path `;TYPE:`, `;WIDTH:` (PrusaSlicer's names; supports are
-/// "Internal infill"), a travel, then the track.
+/// One layer: for every path `;TYPE:`, `;WIDTH:` (PrusaSlicer's names; supports are "Internal infill", thin walls "Gap
+/// fill"), a travel, then the track. `beside`: skirt and brim, printed first.
 ///
-/// A layer's text depends on its own paths alone, so layers can be written in any order: it begins and ends with the
-/// filament retracted, sets every speed it uses, and begins with a travel. Inside, travels longer than `retract_over`
-/// retract. After a retraction a support path is primed with (1 + prime_surplus) times the retraction, unless it starts
-/// within `surplus_clearance` of a perimeter's centre line (Section 5.1).
+/// A travel goes as `map` says, and retracts when it leaves the island or when more of it than `retract_over` is over open
+/// air; not when the tracks that it joins touch at their ends (Section 5.1). After a retraction a support path is primed with
+/// (1 + prime_surplus) times the retraction, unless it starts within `surplus_clearance` of the centre line of a perimeter or
+/// a thin wall.
 ///
 /// Coordinates are the lattice's, exactly. A track of width w extrudes w times layer height mm³ per mm, a rectangular
 /// cross-section as the paper counts material; a dot (path of one point) a disc of that width and height, in place. E
 /// has five decimals; its rounding is carried on, so that its sum over the tracks of a layer is within 0.00001 mm of
 /// the volume over the filament's cross-section.
-/// Precondition: every path has at least one point; a header was written for these printer settings.
-LayerText gcode_layer(const LayerPaths& layer, const Settings& settings, const PrinterSettings& printer);
+/// Precondition: every path has at least one point; the printer settings passed check_printer.
+LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Settings& settings, const PrinterSettings& printer,
+                      const std::vector<ToolPath>& beside = {});
 
-/// What comes after the last layer: heaters off, nozzle up, motors off.
-std::string gcode_footer();
+/// What joins a layer to the one below (nullptr: to the header, which leaves the filament retracted): heading, the nozzle
+/// raised, the way to the first track by the same rules as inside a layer, `map` being the upper layer's. After a layer
+/// without tracks the filament stays retracted. Adds to `statistics`.
+std::string gcode_joint(const LayerText* below, const LayerText& layer, const TravelMap& map, const Settings& settings,
+                        const PrinterSettings& printer, PrintStatistics& statistics);
+
+/// The retraction after the last layer; nothing when that is retracted already.
+std::string gcode_end_of_layers(const LayerText& top, const PrinterSettings& printer, PrintStatistics& statistics);
 
 }  // namespace ribvault

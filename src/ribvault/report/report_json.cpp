@@ -61,10 +61,27 @@ Json settings(const Settings& s) {
             {"max_gap_mm", to_mm(s.max_gap)}};
 }
 
+Json tracks(const TrackSettings& t, const Settings& s) {
+    static constexpr const char* patterns[] = {"zigzag", "monotonic", "concentric"};
+    static constexpr const char* seams[] = {"aligned", "corner", "nearest"};
+    return {{"inner_first", t.inner_first},
+            {"covers", patterns[static_cast<std::size_t>(t.covers)]},
+            {"seam", seams[static_cast<std::size_t>(t.seam)]},
+            {"thin_walls", t.thin_walls},
+            {"first_layer_width_mm", to_mm(t.width_on(0, s.nozzle))},
+            {"skirt_loops", t.skirt_loops},
+            {"skirt_distance_mm", to_mm(t.skirt_distance)},
+            {"brim_width_mm", to_mm(t.brim_width)}};
+}
+
 Json printer(const PrinterSettings& p) {
-    return {{"filament_diameter_mm", p.filament_diameter},
+    static constexpr const char* flavours[] = {"marlin", "klipper", "reprapfirmware"};
+    return {{"name", p.name},
+            {"flavour", flavours[static_cast<std::size_t>(p.flavour)]},
+            {"filament_diameter_mm", p.filament_diameter},
             {"nozzle_temperature_c", p.nozzle_temperature},
             {"bed_temperature_c", p.bed_temperature},
+            {"fan_percent", p.fan_percent},
             {"print_speed_mm_s", p.print_speed},
             {"support_speed_mm_s", p.support_speed},
             {"first_layer_speed_mm_s", p.first_layer_speed},
@@ -72,9 +89,18 @@ Json printer(const PrinterSettings& p) {
             {"retraction_mm", p.retraction},
             {"retraction_speed_mm_s", p.retraction_speed},
             {"retract_over_mm", p.retract_over},
+            {"longest_detour_mm", p.longest_detour},
             {"prime_surplus", p.prime_surplus},
             {"surplus_clearance_mm", p.surplus_clearance},
-            {"bed_mm", {p.bed_x, p.bed_y, p.bed_z}}};
+            {"bed_mm", {p.bed_x, p.bed_y, p.bed_z}},
+            {"round_bed", p.round_bed},
+            {"origin_at_centre", p.origin_at_centre},
+            {"speed_limits_mm_s", p.limits.speed},
+            {"acceleration_limits_mm_s2", p.limits.acceleration},
+            {"jerk_mm_s", p.limits.jerk},
+            {"print_acceleration_mm_s2", p.limits.print_acceleration},
+            {"retract_acceleration_mm_s2", p.limits.retract_acceleration},
+            {"travel_acceleration_mm_s2", p.limits.travel_acceleration}};
 }
 
 Json stages(const StageCounts& c) {
@@ -111,7 +137,18 @@ Json layer_json(const LayerReport& l) {
             {"gaps", l.gaps},
             {"perimeter_length_mm", measured(l.perimeter_length_mm)},
             {"cover_length_mm", measured(l.cover_length_mm)},
+            {"thin_wall_length_mm", measured(l.thin_wall_length_mm)},
+            {"thin_places", l.thin_places},
+            {"thin_area_mm2", measured(l.thin_area_mm2)},
             {"filament_mm", measured(l.filament_mm)},
+            {"extruded_mm3", measured(l.extruded_mm3)},
+            {"prime_surplus_mm3", measured(l.prime_surplus_mm3)},
+            {"travels", l.travels},
+            {"travel_mm", measured(l.travel_mm)},
+            {"open_air_mm", measured(l.open_air_mm)},
+            {"retractions", l.retractions},
+            {"detours", l.detours},
+            {"print_seconds", measured(l.print_seconds)},
             {"trees", l.trees},
             {"verdict", verdict(l.verdict)},
             {"closings", closings}};
@@ -137,7 +174,18 @@ Json totals(const RunTotals& t, std::size_t layers) {
             {"support_printed_length_mm", measured(t.support_printed_length_mm)},
             {"perimeter_length_mm", measured(t.perimeter_length_mm)},
             {"cover_length_mm", measured(t.cover_length_mm)},
+            {"thin_wall_length_mm", measured(t.thin_wall_length_mm)},
+            {"thin_places", t.thin_places},
+            {"thin_area_mm2", measured(t.thin_area_mm2)},
             {"filament_mm", measured(t.filament_mm)},
+            {"extruded_mm3", measured(t.extruded_mm3)},
+            {"prime_surplus_mm3", measured(t.prime_surplus_mm3)},
+            {"travels", t.travels},
+            {"travel_mm", measured(t.travel_mm)},
+            {"open_air_mm", measured(t.open_air_mm)},
+            {"retractions", t.retractions},
+            {"detours", t.detours},
+            {"print_seconds", measured(t.print_seconds)},
             {"gaps", t.gaps},
             {"closings", t.closings}};
 }
@@ -164,6 +212,7 @@ std::string to_json(const RunReport& report) {
     member("input",
            {{"path", report.input_path}, {"mesh", facts(report.input)}, {"placement", placement(report.placement)}});
     member("settings", settings(report.settings));
+    member("tracks", tracks(report.tracks, report.settings));
     member("printer", printer(report.printer));
     member("verdict", summary(report.verdict));
     member("totals", totals(report.totals, report.layers.size()));

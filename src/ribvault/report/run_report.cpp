@@ -19,6 +19,17 @@ void sum_up(RunReport& report) {
         t.perimeter_length_mm += layer.perimeter_length_mm;
         t.cover_length_mm += layer.cover_length_mm;
         t.filament_mm += layer.filament_mm;
+        t.thin_wall_length_mm += layer.thin_wall_length_mm;
+        t.thin_places += layer.thin_places;
+        t.thin_area_mm2 += layer.thin_area_mm2;
+        t.extruded_mm3 += layer.extruded_mm3;
+        t.prime_surplus_mm3 += layer.prime_surplus_mm3;
+        t.travels += layer.travels;
+        t.travel_mm += layer.travel_mm;
+        t.open_air_mm += layer.open_air_mm;
+        t.retractions += layer.retractions;
+        t.detours += layer.detours;
+        t.print_seconds += layer.print_seconds;
         t.gaps += layer.gaps;
         t.closings += static_cast<long>(layer.closings.size());
         if (layer.verdict.supported)

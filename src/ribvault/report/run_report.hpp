@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ribvault/mesh/examine_mesh.hpp"
+#include "ribvault/print/track_settings.hpp"
 #include "ribvault/settings.hpp"
 #include "ribvault/slice/slice_mesh.hpp"
 #include "ribvault/verify/verdict.hpp"
@@ -24,7 +25,18 @@ struct LayerReport {
     int gaps = 0;                          ///< branches that stop short of their junction
     double perimeter_length_mm = 0;
     double cover_length_mm = 0;
-    double filament_mm = 0;  ///< pushed along all tracks of the layer
+    double thin_wall_length_mm = 0;  ///< tracks of their own width where the slice is narrower than one track
+    int thin_places = 0;             ///< places too narrow for any track
+    double thin_area_mm2 = 0;        ///< their area
+    double filament_mm = 0;          ///< pushed along all tracks of the layer
+    double extruded_mm3 = 0;         ///< the same as volume, skirt and brim included
+    double prime_surplus_mm3 = 0;    ///< Section 5.1
+    int travels = 0;                 ///< the way from the layer below included
+    double travel_mm = 0;
+    double open_air_mm = 0;          ///< of the travels over the cavity
+    int retractions = 0;
+    int detours = 0;                 ///< travels that go around to stay inside the shell
+    double print_seconds = 0;        ///< estimated, acceleration-limited
     int trees = 0;           ///< connected components of S_i
     LayerVerdict verdict;    ///< equation (2) for this layer over the one below; layer 0 lies on the bed
     std::vector<GapClosing> closings;
@@ -39,7 +51,18 @@ struct RunTotals {
     double support_printed_length_mm = 0;
     double perimeter_length_mm = 0;
     double cover_length_mm = 0;
+    double thin_wall_length_mm = 0;
+    long thin_places = 0;
+    double thin_area_mm2 = 0;
     double filament_mm = 0;
+    double extruded_mm3 = 0;
+    double prime_surplus_mm3 = 0;
+    long travels = 0;
+    double travel_mm = 0;
+    double open_air_mm = 0;
+    long retractions = 0;
+    long detours = 0;
+    double print_seconds = 0;
     long gaps = 0;
     long closings = 0;
 };
@@ -71,6 +94,7 @@ struct RunReport {
     MeshFacts input;
     Placement placement;
     Settings settings;
+    TrackSettings tracks;
     PrinterSettings printer;
     std::vector<LayerReport> layers;
     RunTotals totals;

@@ -1,0 +1,179 @@
+#include "ribvault/print/gcode_header.hpp"
+
+#include <cmath>
+
+#include "ribvault/error.hpp"
+#include "ribvault/print/gcode_text.hpp"
+
+namespace ribvault {
+namespace {
+
+bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+/// "1h 2m 3s", as PrusaSlicer writes it.
+std::string duration(double seconds) {
+    const long s = std::lround(seconds);
+    std::string text;
+    if (s >= 86400) text += std::to_string(s / 86400) + "d ";
+    if (s >= 3600) text += std::to_string(s / 3600 % 24) + "h ";
+    if (s >= 60) text += std::to_string(s / 60 % 60) + "m ";
+    return text + std::to_string(s % 60) + "s";
+}
+
+std::string value_of(const std::string& name, const Settings& s, const PrinterSettings& p, const PrintFacts& f) {
+    const auto whole = [](double v) { return std::to_string(std::lround(v)); };
+    if (name == "nozzle_temperature") return whole(p.nozzle_temperature);
+    if (name == "bed_temperature") return whole(p.bed_temperature);
+    if (name == "layer_height") return decimal_text(to_mm(s.layer_height));
+    if (name == "first_layer_height") return decimal_text(to_mm(s.first_layer_height));
+    if (name == "nozzle_diameter") return decimal_text(to_mm(s.nozzle));
+    if (name == "filament_diameter") return decimal_text(p.filament_diameter);
+    if (name == "bed_x") return decimal_text(p.bed_x);
+    if (name == "bed_y") return decimal_text(p.bed_y);
+    if (name == "bed_z") return decimal_text(p.bed_z);
+    if (name == "retraction") return decimal_text(p.retraction);
+    if (name == "travel_speed") return decimal_text(p.travel_speed);
+    if (name == "printer") return p.name;
+    if (name == "layer_count") return whole(f.layers);
+    if (name == "print_seconds") return whole(f.seconds);
+    if (name == "print_time") return duration(f.seconds);
+    if (name == "filament_mm") return decimal_text(f.filament_mm);
+    if (name == "filament_mm3") return decimal_text(f.filament_mm * filament_area(p));
+    const auto side = [&](double v) { return f.box.empty() ? std::string("0") : decimal_text(v); };
+    if (name == "min_x") return side(to_mm(f.box.lo.x));
+    if (name == "min_y") return side(to_mm(f.box.lo.y));
+    if (name == "max_x") return side(to_mm(f.box.hi.x));
+    if (name == "max_y") return side(to_mm(f.box.hi.y));
+    if (name == "max_z") return decimal_text(f.height_mm);
+    return {};
+}
+
+std::string limits_text(const PrinterSettings& p) {
+    const MotionLimits& l = p.limits;
+    const auto axes = [](const char* code, const std::array<double, 4>& v, double factor) {
+        return std::string(code) + " X" + decimal_text(v[0] * factor) + " Y" + decimal_text(v[1] * factor) + " Z" + decimal_text(v[2] * factor) +
+               " E" + decimal_text(v[3] * factor) + "\n";
+    };
+    switch (p.flavour) {
+        case Flavour::klipper:
+            return "SET_VELOCITY_LIMIT VELOCITY=" + decimal_text(l.speed[0]) + " ACCEL=" + decimal_text(l.print_acceleration) +
+                   " SQUARE_CORNER_VELOCITY=" + decimal_text(l.jerk[0]) + "\n";
+        case Flavour::reprapfirmware:
+            return axes("M201", l.acceleration, 1) + axes("M203", l.speed, 60) + axes("M566", l.jerk, 60) + "M204 P" +
+                   decimal_text(l.print_acceleration) + " T" + decimal_text(l.travel_acceleration) + "\n";
+        case Flavour::marlin: break;
+    }
+    return axes("M201", l.acceleration, 1) + axes("M203", l.speed, 1) + axes("M205", l.jerk, 1) + "M204 P" + decimal_text(l.print_acceleration) +
+           " R" + decimal_text(l.retract_acceleration) + " T" + decimal_text(l.travel_acceleration) + "\n";
+}
+
+}  // namespace
+
+std::string fill_placeholders(const std::string& text, const std::string& key, const Settings& settings, const PrinterSettings& printer,
+                              const PrintFacts& facts) {
+    std::string filled;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if ((c == '{' || c == '}') && i + 1 < text.size() && text[i + 1] == c) {
+            filled += c, ++i;
+            continue;
+        }
+        if (c == '}') throw Error(ErrorKind::usage, key + ": a '}' without '{'; write '}}' for a brace");
+        if (c != '{') {
+            filled += c;
+            continue;
+        }
+        const std::size_t end = text.find('}', i);
+        if (end == std::string::npos) throw Error(ErrorKind::usage, key + ": a '{' without '}'; write '{{' for a brace");
+        const std::string name = text.substr(i + 1, end - i - 1), value = value_of(name, settings, printer, facts);
+        if (value.empty()) throw Error(ErrorKind::usage, key + ": nothing is known for the placeholder {" + name + "}; docs/printing.md lists those there are");
+        filled += value;
+        i = end;
+    }
+    if (!filled.empty() && filled.back() != '\n') filled += '\n';
+    return filled;
+}
+
+void check_printer(const PrinterSettings& printer) {
+    const auto need = [](bool good, const char* name, double value, const char* rule) {
+        if (!good || !std::isfinite(value))
+            throw Error(ErrorKind::usage, std::string(name) + " is " + std::to_string(value) + "; it must be " + rule);
+    };
+    need(printer.filament_diameter > 0, "filament diameter (mm)", printer.filament_diameter, "positive");
+    need(printer.nozzle_temperature >= 0, "nozzle temperature (°C)", printer.nozzle_temperature, "0 or more");
+    need(printer.bed_temperature >= 0, "bed temperature (°C)", printer.bed_temperature, "0 (not heated) or more");
+    need(printer.fan_percent >= 0 && printer.fan_percent <= 100, "fan (percent)", printer.fan_percent, "between 0 and 100");
+    need(printer.print_speed > 0, "print speed (mm/s)", printer.print_speed, "positive");
+    need(printer.support_speed > 0, "support speed (mm/s)", printer.support_speed, "positive");
+    need(printer.first_layer_speed > 0, "first layer speed (mm/s)", printer.first_layer_speed, "positive");
+    need(printer.travel_speed > 0, "travel speed (mm/s)", printer.travel_speed, "positive");
+    need(printer.retraction >= 0, "retraction (mm)", printer.retraction, "0 (none) or more");
+    need(printer.retraction_speed > 0, "retraction speed (mm/s)", printer.retraction_speed, "positive");
+    need(printer.retract_over >= 0, "open air that retracts (mm)", printer.retract_over, "0 or more");
+    need(printer.longest_detour >= 0, "longest detour (mm)", printer.longest_detour, "0 or more");
+    need(printer.prime_surplus >= 0, "prime surplus", printer.prime_surplus, "0 or more (a share of the retraction)");
+    need(printer.surplus_clearance >= 0, "surplus clearance (mm)", printer.surplus_clearance, "0 or more");
+    for (std::size_t a = 0; a < 4; ++a) {
+        need(printer.limits.speed[a] > 0, "highest speed of an axis (mm/s)", printer.limits.speed[a], "positive");
+        need(printer.limits.acceleration[a] > 0, "acceleration of an axis (mm/s2)", printer.limits.acceleration[a], "positive");
+        need(printer.limits.jerk[a] > 0, "jerk of an axis (mm/s)", printer.limits.jerk[a], "positive");
+    }
+    need(printer.limits.print_acceleration > 0, "acceleration (mm/s2)", printer.limits.print_acceleration, "positive");
+    need(printer.limits.retract_acceleration > 0, "retract acceleration (mm/s2)", printer.limits.retract_acceleration, "positive");
+    need(printer.limits.travel_acceleration > 0, "travel acceleration (mm/s2)", printer.limits.travel_acceleration, "positive");
+    fill_placeholders(printer.file_header, "file_header", {}, printer, {});
+    fill_placeholders(printer.start_gcode, "start_gcode", {}, printer, {});
+    fill_placeholders(printer.end_gcode, "end_gcode", {}, printer, {});
+}
+
+std::string gcode_header(const Settings& settings, const TrackSettings& tracks, const PrinterSettings& printer, const PrintFacts& facts,
+                         const std::string& thumbnails) {
+    check_printer(printer);
+    std::string text = fill_placeholders(printer.file_header, "file_header", settings, printer, facts);
+    text += "; generated by ribvault\n";
+    text += printer.flavour == Flavour::reprapfirmware ? ";FLAVOR:RepRap\n" : ";FLAVOR:Marlin\n";
+    if (facts.seconds > 0) text += ";TIME:" + std::to_string(std::lround(facts.seconds)) + "\n";
+    text += ";LAYER_COUNT:" + std::to_string(facts.layers) + "\n";
+    text += thumbnails;
+    const auto comment = [&](const char* name, const std::string& value) { ((((text += "; ") += name) += " = ") += value) += '\n'; };
+    comment("printer", printer.name);
+    comment("layer_height", decimal_text(to_mm(settings.layer_height)));
+    comment("first_layer_height", decimal_text(to_mm(settings.first_layer_height)));
+    comment("nozzle_diameter", decimal_text(to_mm(settings.nozzle)));
+    comment("first_layer_extrusion_width", decimal_text(to_mm(tracks.width_on(0, settings.nozzle))));
+    comment("filament_diameter", decimal_text(printer.filament_diameter));
+    comment("perimeters", std::to_string(settings.perimeters));
+    comment("top_solid_layers", std::to_string(settings.top_layers));
+    comment("bottom_solid_layers", std::to_string(settings.bottom_layers));
+    if (facts.filament_mm > 0) comment("filament used [mm]", decimal_text(std::round(facts.filament_mm * 100) / 100));
+    if (facts.seconds > 0) comment("estimated printing time (normal mode)", duration(facts.seconds));
+
+    const std::string& start = printer.start_gcode;
+    const bool heats_bed = !contains(start, "M140") && !contains(start, "M190") && !contains(start, "{bed_temperature}") && printer.bed_temperature > 0;
+    const bool heats_nozzle = !contains(start, "M104") && !contains(start, "M109") && !contains(start, "{nozzle_temperature}");
+    const std::string bed = std::to_string(printer.bed_temperature), nozzle = std::to_string(printer.nozzle_temperature);
+    if (printer.flavour == Flavour::reprapfirmware) text += "T0\n";
+    if (heats_bed) text += "M140 S" + bed + " ; heat the bed\n";
+    if (heats_nozzle) text += "M104 S" + nozzle + " ; heat the nozzle\n";
+    if (heats_bed) text += "M190 S" + bed + " ; wait for the bed\n";
+    if (heats_nozzle) text += "M109 S" + nozzle + " ; wait for the nozzle\n";
+    if (printer.write_limits) text += limits_text(printer);
+    text += fill_placeholders(start, "start_gcode", settings, printer, facts);
+    text += "G21 ; millimetres\nG90 ; absolute coordinates\nM83 ; relative extrusion\n";
+    if (printer.retraction > 0)
+        text += "G1 E-" + decimal_text(printer.retraction) + " F" + decimal_text(printer.retraction_speed * 60) + " ; the first layer starts retracted\n";
+    return text;
+}
+
+std::string gcode_footer(const Settings& settings, const PrinterSettings& printer, const PrintFacts& facts) {
+    std::string text = "; end of print\n";
+    if (printer.fan_percent > 0) text += "M107 ; fan off\n";
+    const std::string& end = printer.end_gcode;
+    if (!contains(end, "M104")) text += "M104 S0 ; nozzle off\n";
+    if (!contains(end, "M140") && printer.bed_temperature > 0) text += "M140 S0 ; bed off\n";
+    text += fill_placeholders(end, "end_gcode", settings, printer, facts);
+    if (!contains(end, "M84")) text += "M84 ; motors off\n";
+    return text;
+}
+
+}  // namespace ribvault

@@ -1,0 +1,26 @@
+// The tracks of one layer before they have an order, and what their order must respect.
+#pragma once
+
+#include "ribvault/print/short_tour.hpp"
+#include "ribvault/print/tool_path.hpp"
+
+namespace ribvault {
+
+/// A track that is printed without a stop: one path, or, where the width varies, several that follow each other end to end.
+struct PlannedTrack {
+    std::vector<ToolPath> paths;      ///< at least one; all of one kind
+    Entry entry = Entry::fixed;       ///< where the nozzle may enter it
+    std::size_t after = no_stop;      ///< the track of the plan, of the same stage, that must be printed earlier
+};
+
+/// All tracks of layer i. print/order_paths.hpp makes LayerPaths of it.
+struct LayerPlan {
+    int layer = 0;
+    std::vector<PlannedTrack> tracks;
+    int gaps = 0;
+    Unit gap_length = 0;
+    int thin_places = 0;      ///< places of the slice too narrow for any track
+    double thin_area = 0;     ///< their area in square lattice units
+};
+
+}  // namespace ribvault

@@ -1,0 +1,67 @@
+#include "ribvault/print/skirt.hpp"
+
+#include <algorithm>
+
+#include "ribvault/slice/lattice_clip.hpp"
+
+namespace ribvault {
+namespace {
+
+int brim_loops(Unit width, const TrackSettings& tracks) { return static_cast<int>((tracks.brim_width + width / 2) / width); }
+
+/// The convex hull of all contours, counter-clockwise (Andrew's chains; exact).
+Contour hull_of(const Region& region) {
+    std::vector<Point> points;
+    for (const Contour& c : region) points.insert(points.end(), c.begin(), c.end());
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    if (points.size() < 3) return points;
+    Contour hull;
+    for (const bool back : {false, true}) {
+        const std::size_t begin = hull.size();
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Point p = back ? points[points.size() - 1 - i] : points[i];
+            const auto turns_right = [&] {
+                const Point u = hull[hull.size() - 1] - hull[hull.size() - 2], v = p - hull.back();
+                return u.x * v.y - u.y * v.x <= 0;
+            };
+            while (hull.size() >= begin + 2 && turns_right()) hull.pop_back();
+            hull.push_back(p);
+        }
+        hull.pop_back();
+    }
+    return hull;
+}
+
+void append_loops(const Region& around, double distance, Unit width, std::vector<ToolPath>& paths) {
+    for (Contour& loop : offset(around, distance, ClipperLib::jtRound, 1000))
+        if (signed_area({loop}) > 0) paths.push_back({TrackKind::skirt, width, true, std::move(loop)});
+}
+
+}  // namespace
+
+std::vector<ToolPath> skirt_and_brim(const Region& outline, const Settings& settings, const TrackSettings& tracks) {
+    std::vector<ToolPath> paths;
+    const Unit w = tracks.width_on(0, settings.nozzle);
+    const double width = static_cast<double>(w);
+    const int brim = brim_loops(w, tracks);
+    Region outer;
+    for (const Contour& c : outline)
+        if (signed_area({c}) > 0) outer.push_back(c);
+    if (outer.empty()) return paths;
+    if (tracks.skirt_loops > 0) {
+        const Region hull{hull_of(outer)};
+        for (int k = tracks.skirt_loops; k-- > 0;)
+            append_loops(hull, brim * width + static_cast<double>(tracks.skirt_distance) + (k + 0.5) * width, w, paths);
+    }
+    for (int k = brim; k-- > 0;) append_loops(outer, (k + 0.5) * width, w, paths);
+    return paths;
+}
+
+Unit reach_of_skirt_and_brim(const Settings& settings, const TrackSettings& tracks) {
+    const Unit w = tracks.width_on(0, settings.nozzle);
+    const Unit brim = brim_loops(w, tracks) * w;
+    return tracks.skirt_loops > 0 ? brim + tracks.skirt_distance + tracks.skirt_loops * w : brim;
+}
+
+}  // namespace ribvault

@@ -1,0 +1,37 @@
+// How shell and covers are laid out as tracks. Nothing here changes what is proved: cavities and supports.
+#pragma once
+
+#include "ribvault/exact/lattice.hpp"
+
+namespace ribvault {
+
+enum class CoverPattern {
+    zigzag,      ///< straight lines in both directions, linked along the border wherever that is near
+    monotonic,   ///< straight lines, each printed after all that lie before it: an even sheen
+    concentric   ///< closed lines along the border
+};
+
+/// Where a closed outer perimeter begins and ends.
+enum class Seam {
+    aligned,  ///< at its rearmost point, so that the seams of the layers lie above each other
+    corner,   ///< at its sharpest corner (the rearmost of those alike), where it shows least
+    nearest   ///< where the nozzle travels least
+};
+
+/// Lengths in lattice units.
+struct TrackSettings {
+    bool inner_first = false;        ///< perimeters from the inside out
+    CoverPattern covers = CoverPattern::zigzag;
+    Seam seam = Seam::aligned;
+    bool thin_walls = true;          ///< a track of its own width where the slice is narrower than one track
+    Unit first_layer_width = 0;      ///< of perimeters and covers on layer 0; at least d; 0: d
+    int skirt_loops = 0;             ///< around everything on layer 0
+    Unit skirt_distance = 300000;    ///< from the object, or its brim, to the skirt
+    Unit brim_width = 0;             ///< around every island on layer 0, touching it
+
+    /// Throws Error (usage) naming the first setting that cannot be. `nozzle`: d.
+    void check(Unit nozzle) const;
+    Unit width_on(int layer, Unit nozzle) const { return layer == 0 && first_layer_width > 0 ? first_layer_width : nozzle; }
+};
+
+}  // namespace ribvault
