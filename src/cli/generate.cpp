@@ -56,6 +56,10 @@ void add_geometry(CLI::App* command, Written& w) {
         "--strategy", [&s](const std::string& name) { choose_strategy(name, s); },
         "paper: Sections 4.1 to 4.3; thrifty: less material under the same proof (default paper)")
         ->check(CLI::IsMember({"paper", "thrifty"}))->type_name("NAME");
+    supports->add_option_function<std::string>(
+        "--gaps", [&s](const std::string& name) { s.gaps = name == "paper" ? Gaps::paper : name == "none" ? Gaps::none : Gaps::proved; },
+        "at junctions (Section 4.4): proved: where the print is supported with them; paper: all; none (default proved)")
+        ->check(CLI::IsMember({"proved", "paper", "none"}))->type_name("NAME");
     supports->add_flag_function("--no-shrink", [&s](std::int64_t) { s.propagation = Propagation::erode_straighten; }, "thrifty without its descent of length");
     supports->add_flag_function("--no-trim", [&s](std::int64_t) { s.trim = false; }, "thrifty without trimming new walls");
     supports->add_flag_function("--no-doubling", [&s](std::int64_t) { s.order = Order::distance; }, "thrifty with the paper's order of points");

@@ -20,6 +20,13 @@ enum class Order {
     doubling   ///< the nearest by its distance to B_i rounded down to ρ, 2ρ, 4ρ, ...: at random within such a band
 };
 
+/// What becomes of the gaps of Section 4.4, in which a branch stops one track width short of its junction.
+enum class Gaps {
+    proved,  ///< they stay where the print is supported with them (print/hold_print.hpp)
+    paper,   ///< all of them; what then hangs is reported
+    none     ///< none
+};
+
 /// What decides the geometry. Lengths in lattice units (10 nm); symbols are the paper's.
 struct Settings {
     Unit layer_height = 20000;        ///< h
@@ -32,6 +39,7 @@ struct Settings {
 
     Propagation propagation = Propagation::erode_straighten;
     Order order = Order::distance;
+    Gaps gaps = Gaps::proved;
     bool trim = false;  ///< new walls end as early as what they are there for allows (vault/trim_walls.hpp)
 
     Unit erosion_step = 20000;     ///< how much a free tip loses per layer (Section 4.1); at most ρ keeps equation (1)

@@ -16,9 +16,7 @@
 #include "ribvault/pipeline/sweep_layers.hpp"
 #include "ribvault/print/gcode_header.hpp"
 #include "ribvault/print/order_paths.hpp"
-#include "ribvault/print/shell_paths.hpp"
 #include "ribvault/print/skirt.hpp"
-#include "ribvault/print/support_paths.hpp"
 #include "ribvault/print/write_gcode.hpp"
 #include "ribvault/report/layer_svg.hpp"
 #include "ribvault/report/write_mesh.hpp"
@@ -37,6 +35,7 @@ struct LayerOutput {
     LayerText text;
     TravelMap map;
     Box box;  ///< of the tracks' centre lines
+    PrintVerdict print_above;  ///< of the layer above over this one
     std::string walls;
     std::optional<AtomicFile> picture;
 };
@@ -62,7 +61,7 @@ public:
 
         const auto finish = [&](const SweptLayer& layer, const LayerMaterial* below) { return std::shared_ptr<void>(finish_layer(slicer, layer, below)); };
         const auto collect = [&](const SweptLayer&, std::shared_ptr<void> output) { collect_layer(std::static_pointer_cast<LayerOutput>(output)); };
-        times_.merge(sweep_layers(slicer, job_.settings, job_.threads, finish, collect, job_.stop));
+        times_.merge(sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop));
         times_.erase("finish");  // its parts are counted one by one
         if (waiting_) join(nullptr);
         times_["proof"] = 1e-9 * static_cast<double>(proof_), times_["paths"] = 1e-9 * static_cast<double>(paths_);
@@ -128,11 +127,7 @@ private:
         proof_ += (Time::now() - from).count();
 
         from = Time::now();
-        LayerPlan plan;
-        plan.layer = layer.layer;
-        append_shell_paths(*layer.slice, layer.cavity->region, s, job_.tracks, plan);
-        append_support_paths(swept.forest, s, plan);
-        const LayerPaths paths = order_paths(std::move(plan), layer.slice->rounded);
+        const LayerPaths paths = order_paths(swept.held.plan, layer.slice->rounded);
         output->map = TravelMap(layer.slice->rounded, layer.cavity->region, paths);
         const std::vector<ToolPath> beside = layer.layer == 0 ? skirt_and_brim(layer.slice->rounded, s, job_.tracks) : std::vector<ToolPath>();
         output->text = gcode_layer(paths, output->map, s, job_.printer, beside);
@@ -152,6 +147,10 @@ private:
         r.support_printed_length_mm = p.length[of(TrackKind::support)];
         r.support_volume_mm3 = p.volume[of(TrackKind::support)];
         r.gaps = paths.gaps;
+        r.closed_gaps = swept.held.closed_gaps;
+        r.patches = swept.held.patches;
+        r.patch_length_mm = to_mm(swept.held.patch_length);
+        output->print_above = swept.held.verdict;
         r.perimeter_length_mm = p.length[of(TrackKind::outer_perimeter)] + p.length[of(TrackKind::inner_perimeter)];
         r.cover_length_mm = p.length[of(TrackKind::cover)];
         r.thin_wall_length_mm = p.length[of(TrackKind::thin_wall)];
@@ -183,9 +182,10 @@ private:
     /// Layers come from the top. Each waits for the one below it, to which it is joined then.
     void collect_layer(std::shared_ptr<LayerOutput> next) {
         LayerOutput& output = *next;
-        if (waiting_)
+        if (waiting_) {
+            waiting_->report.print = output.print_above;
             join(&output.text);
-        else
+        } else
             end_of_layers_ = gcode_end_of_layers(output.text, job_.printer, output.text.statistics);
         if (output.picture) svgs_.push_back(std::move(*output.picture));
         if (walls_) {

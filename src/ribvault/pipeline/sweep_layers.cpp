@@ -8,6 +8,7 @@
 #include <deque>
 
 #include "ribvault/error.hpp"
+#include "ribvault/print/shell_paths.hpp"
 #include "ribvault/vault/next_layer.hpp"
 
 namespace ribvault {
@@ -66,7 +67,7 @@ std::shared_ptr<const std::vector<Segment>> tracks_of(const SupportForest& fores
 
 }  // namespace
 
-StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, int threads,
+StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const TrackSettings& track_settings, int threads,
                         const std::function<std::shared_ptr<void>(const SweptLayer&, const LayerMaterial* below)>& finish,
                         const std::function<void(const SweptLayer&, std::shared_ptr<void>)>& collect,
                         const std::function<bool()>& stop) {
@@ -77,7 +78,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, int thre
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
 
     const int layers = slicer.layer_count(), up = settings.top_layers, down = settings.bottom_layers;
-    Clock slicing, eroding, cavities, overhangs, sweeping, finishing;
+    Clock slicing, eroding, cavities, overhangs, sweeping, holding, finishing;
 
     int next = layers - 1;  // after the last slice come empty tokens that push the last layers through
     const int last = -down - 1;
@@ -152,11 +153,26 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, int thre
                 token->swept = std::move(previous);
                 token->below_swept = std::make_shared<const LayerMaterial>(token->material);
                 previous = std::make_shared<SweptLayer>(SweptLayer{
-                    std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), supports.blocked});
+                    std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), supports.blocked, {}});
             } else if (token->slice_index == last && previous) {
                 for (auto [e, end] = edges(previous->forest); e != end; ++e) previous->forest[*e].first_layer = true;
                 token->swept = std::move(previous);
             }
+        });
+        return token;
+    };
+    PrintedLayer printed_above;
+    bool top = true;
+    const auto hold = [&](TokenPtr token) {
+        if (!token->swept) return token;
+        holding.measure([&] {
+            const LayerMaterial& material = token->swept->material;
+            LayerPlan shell;
+            shell.layer = material.layer;
+            append_shell_paths(*material.slice, material.cavity->region, settings, track_settings, shell);
+            token->swept->held = hold_print(std::move(shell), token->swept->forest, top ? nullptr : &printed_above, settings);
+            printed_above = std::move(token->swept->held.printed);
+            top = false;
         });
         return token;
     };
@@ -177,11 +193,12 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, int thre
                     tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::serial_in_order, pair) &
                     tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::parallel, hang) &
                     tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::serial_in_order, sweep) &
+                    tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::serial_in_order, hold) &
                     tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::parallel, complete) &
                     tbb::make_filter<TokenPtr, void>(filter_mode::serial_in_order, deliver));
     if (stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
     return {{"slice", slicing.seconds()},    {"erode", eroding.seconds()},  {"cavity", cavities.seconds()},
-            {"overhang", overhangs.seconds()}, {"sweep", sweeping.seconds()}, {"finish", finishing.seconds()}};
+            {"overhang", overhangs.seconds()}, {"sweep", sweeping.seconds()}, {"hold", holding.seconds()}, {"finish", finishing.seconds()}};
 }
 
 }  // namespace ribvault

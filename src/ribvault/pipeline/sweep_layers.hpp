@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "ribvault/print/hold_print.hpp"
+#include "ribvault/print/track_settings.hpp"
 #include "ribvault/settings.hpp"
 #include "ribvault/slice/cavity.hpp"
 #include "ribvault/slice/slice_mesh.hpp"
@@ -29,18 +31,19 @@ struct SweptLayer {
     SupportForest forest;  ///< S_i, SupportEdge::first_layer set
     Region unsupported;    ///< what of layer i + 1 the walls copied from above and the shell did not hold up
     int blocked = 0;       ///< chains that could not be straightened without crossing a wall
+    HeldLayer held;        ///< what is printed, and the verdict on the layer above over it
 };
 
 /// Busy time of each stage in seconds, summed over threads.
 using StageTimes = std::map<std::string, double>;
 
-/// Slices, hollows and sweeps all layers. `finish(layer, below)` is called for every layer, concurrently, with the material
+/// Slices, hollows and sweeps all layers, and plans what is printed. `finish(layer, below)` is called for every layer, concurrently, with the material
 /// of the layer below (nullptr under layer 0); what it returns is handed to `collect` in the order of the layers from top
 /// to bottom, one at a time. At most a window of layers is alive at any time, whatever their number. The result does not
 /// depend on `threads` (0: all).
 ///
 /// Throws what its parts throw, and Error (interrupted) soon after `stop()` returned true.
-StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, int threads,
+StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const TrackSettings& track_settings, int threads,
                         const std::function<std::shared_ptr<void>(const SweptLayer&, const LayerMaterial* below)>& finish,
                         const std::function<void(const SweptLayer&, std::shared_ptr<void>)>& collect,
                         const std::function<bool()>& stop);

@@ -25,6 +25,7 @@ struct RootedForest {
     std::vector<Vertex> parent;
     std::vector<double> edge_length;  ///< of the edge to the parent
     std::vector<char> first_layer;    ///< of the edge to the parent
+    std::vector<char> to_junction;    ///< the same
     std::vector<double> reach;        ///< length of the longest way down from the vertex
     /// How much of the next branch leaving the vertex is left out: nothing where nothing was printed yet (a root), one
     /// width where a path runs through.
@@ -39,6 +40,7 @@ struct RootedForest {
           parent(num_vertices(f), no_vertex),
           edge_length(num_vertices(f), 0),
           first_layer(num_vertices(f), 0),
+          to_junction(num_vertices(f), 0),
           reach(num_vertices(f), 0),
           gap(num_vertices(f), 0),
           seen(num_vertices(f), 0),
@@ -70,6 +72,7 @@ void hang_from_root(RootedForest& f, Vertex root, int layer) {
             f.parent[w] = v;
             f.edge_length[w] = length(f.at(w) - f.at(v));
             f.first_layer[w] = f.forest[*e].first_layer;
+            f.to_junction[w] = f.forest[*e].to_junction;
             order.push_back(w);
         }
     }
@@ -155,7 +158,7 @@ void append_tree(RootedForest& f, Vertex root, LayerPlan& plan) {
         }
         const double whole = f.edge_length[branch.into] + f.reach[branch.into];
         const bool first_layer = f.first_layer[branch.into];
-        const double gap = first_layer ? 0 : f.gap[branch.junction];
+        const double gap = first_layer || f.to_junction[branch.into] ? 0 : f.gap[branch.junction];
         std::vector<Point> points;
         if (whole > gap) points = points_after_gap(f, vertices, gap);
         const bool printed = points.size() > 1;

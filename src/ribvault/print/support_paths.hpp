@@ -15,7 +15,7 @@ namespace ribvault {
 /// nothing. A dot (isolated vertex) becomes a path of one point.
 ///
 /// Only the first path runs through a junction. A later branch starts one track width (`settings.nozzle`) short of it,
-/// measured along the branch, unless its first edge has first_layer set: then it starts at the junction. A branch that
+/// measured along the branch, unless its first edge has first_layer or to_junction set: then it starts at the junction. A branch that
 /// is no longer than its gap is not printed and counts as gap. A junction that lies inside such a gap is itself not
 /// printed; a branch from there starts where it is one width away, along the tree, from the nearest printed centre
 /// line, so that tracks touch without overlapping there too.

@@ -49,6 +49,7 @@ Json settings(const Settings& s) {
             {"propagation", s.propagation == Propagation::shrink ? "shrink" : "erode_straighten"},
             {"order", s.order == Order::doubling ? "doubling" : "distance"},
             {"trim", s.trim},
+            {"gaps", s.gaps == Gaps::proved ? "proved" : s.gaps == Gaps::paper ? "paper" : "none"},
             {"erosion_step_mm", to_mm(s.erosion_step)},
             {"straighten", s.straighten},
             {"straighten_step_mm", to_mm(s.straighten_step)},
@@ -124,6 +125,14 @@ Json verdict(const LayerVerdict& v) {
             {"stages", stages(v.stages)}};
 }
 
+Json print_verdict(const PrintVerdict& v) {
+    return {{"supported", v.supported},
+            {"unsupported_mm", v.unsupported_mm},
+            {"external_mm", v.external_mm},
+            {"place_mm", v.supported ? Json(nullptr) : Json(v.place)},
+            {"stages", stages(v.stages)}};
+}
+
 Json layer_json(const LayerReport& l) {
     Json closings = Json::array();
     for (const GapClosing& c : l.closings) closings.push_back({{"x_mm", c.x}, {"y_mm", c.y}, {"length_mm", c.length}});
@@ -150,7 +159,11 @@ Json layer_json(const LayerReport& l) {
             {"detours", l.detours},
             {"print_seconds", measured(l.print_seconds)},
             {"trees", l.trees},
+            {"closed_gaps", l.closed_gaps},
+            {"patches", l.patches},
+            {"patch_length_mm", measured(l.patch_length_mm)},
             {"verdict", verdict(l.verdict)},
+            {"print", print_verdict(l.print)},
             {"closings", closings}};
 }
 
@@ -162,7 +175,13 @@ Json summary(const VerdictSummary& v) {
             {"layers_proved", v.layers_proved},
             {"layers_refuted", v.layers_refuted},
             {"external_overhangs", external},
-            {"stages", stages(v.stages)}};
+            {"stages", stages(v.stages)},
+            {"print",
+             {{"proved", v.print_proved},
+              {"layers_refuted", v.print_layers_refuted},
+              {"unsupported_mm", v.print_unsupported_mm},
+              {"external_mm", v.print_external_mm},
+              {"stages", stages(v.print_stages)}}}};
 }
 
 Json totals(const RunTotals& t, std::size_t layers) {
@@ -187,6 +206,9 @@ Json totals(const RunTotals& t, std::size_t layers) {
             {"detours", t.detours},
             {"print_seconds", measured(t.print_seconds)},
             {"gaps", t.gaps},
+            {"closed_gaps", t.closed_gaps},
+            {"patches", t.patches},
+            {"patch_length_mm", measured(t.patch_length_mm)},
             {"closings", t.closings}};
 }
 

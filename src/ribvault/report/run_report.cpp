@@ -31,6 +31,9 @@ void sum_up(RunReport& report) {
         t.detours += layer.detours;
         t.print_seconds += layer.print_seconds;
         t.gaps += layer.gaps;
+        t.closed_gaps += layer.closed_gaps;
+        t.patches += layer.patches;
+        t.patch_length_mm += layer.patch_length_mm;
         t.closings += static_cast<long>(layer.closings.size());
         if (layer.verdict.supported)
             ++v.layers_proved;
@@ -39,9 +42,16 @@ void sum_up(RunReport& report) {
         if (const auto& out = layer.verdict.external)
             v.external_overhangs.push_back({layer.layer, out->area_lo, out->area_hi});
         v.stages += layer.verdict.stages;
+        if (!layer.print.supported) v.print_layers_refuted.push_back(layer.layer);
+        for (const std::size_t k : {0, 1}) {
+            v.print_unsupported_mm[k] += layer.print.unsupported_mm[k];
+            v.print_external_mm[k] += layer.print.external_mm[k];
+        }
+        v.print_stages += layer.print.stages;
     }
     t.material_mm3 = t.shell_volume_mm3 + t.support_volume_mm3;
     v.proved = !report.layers.empty() && v.layers_refuted.empty();
+    v.print_proved = !report.layers.empty() && v.print_layers_refuted.empty();
 }
 
 double peak_memory_mb() {

@@ -39,6 +39,10 @@ struct LayerReport {
     double print_seconds = 0;        ///< estimated, acceleration-limited
     int trees = 0;           ///< connected components of S_i
     LayerVerdict verdict;    ///< equation (2) for this layer over the one below; layer 0 lies on the bed
+    PrintVerdict print;      ///< the same for what is extruded
+    int closed_gaps = 0;     ///< branches printed up to their junction because a gap would have let something above hang
+    int patches = 0;         ///< short tracks that hold what the shell's own tracks leave open
+    double patch_length_mm = 0;
     std::vector<GapClosing> closings;
 };
 
@@ -64,6 +68,9 @@ struct RunTotals {
     long detours = 0;
     double print_seconds = 0;
     long gaps = 0;
+    long closed_gaps = 0;
+    long patches = 0;
+    double patch_length_mm = 0;
     long closings = 0;
 };
 
@@ -78,6 +85,11 @@ struct VerdictSummary {
     std::vector<int> layers_refuted;
     std::vector<ExternalOverhang> external_overhangs;
     StageCounts stages;
+    bool print_proved = false;               ///< what is extruded satisfies (2) on every layer, inside the outline below
+    std::vector<int> print_layers_refuted;
+    std::array<double, 2> print_unsupported_mm{0, 0};  ///< enclosures of lengths of centre lines, sums over the layers
+    std::array<double, 2> print_external_mm{0, 0};
+    StageCounts print_stages;
 };
 
 /// What differs between two runs of the same job.

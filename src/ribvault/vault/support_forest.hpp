@@ -16,6 +16,8 @@ struct SupportEdge {
     /// The branch that starts with this edge does not continue on the layer below: this is the first layer on which it is
     /// printed, so its path reaches the junction (Section 4.4, Figure 20). Known once the layer below is propagated.
     bool first_layer = false;
+    /// The branch that starts with this edge is printed up to its junction although it continues below (print/hold_print.hpp).
+    bool to_junction = false;
 };
 
 /// A forest: every connected component is a tree and has at least one root. Vertex degree is the valence of equation (4).

@@ -15,6 +15,7 @@ struct PrintedTrack {
     Rational width;                ///< > 0
     int feature = 0;               ///< index of a feature type, the reader's business
     std::int64_t line = 0;         ///< line of the file
+    bool outline = false;          ///< a side of a closed loop that bounds the object (verify/outside_outline.hpp)
 };
 
 /// The extrusions of one height. The material of the layer is the union of their stadiums.

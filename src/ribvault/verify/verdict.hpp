@@ -28,6 +28,16 @@ struct Unsupported {
     double witness_distance = 0;             ///< mm to the nearest material below, rounded down
 };
 
+/// Equation (2) for the print: every point of what is extruded on layer i + 1, inside the outline of layer i, has material
+/// extruded on layer i within ρ (verify/outside_outline.hpp).
+struct PrintVerdict {
+    bool supported = true;
+    std::array<double, 2> unsupported_mm{0, 0};  ///< enclosure of the length of centre lines that violate (1) inside the outline
+    std::array<double, 2> external_mm{0, 0};     ///< the same outside it
+    std::array<double, 2> place{0, 0};           ///< near something unsupported, mm
+    StageCounts stages;
+};
+
 /// Equation (2) for layers i (upper) and i - 1 (below).
 struct LayerVerdict {
     int layer = 0;                           ///< the upper layer, i

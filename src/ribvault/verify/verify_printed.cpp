@@ -37,6 +37,7 @@ public:
 private:
     bool follows_one();
     bool stadiums_open(const Stretch& part);
+    bool wanted() const { return options_.regions || options_.stretches; }  ///< all of what is open
     void report_gap(const CentreGap& gap);
     void find_open_parts(const std::vector<Stretch>& gaps, const std::vector<CentreGap>& centre);
 
@@ -134,7 +135,7 @@ void Judge::find_open_parts(const std::vector<Stretch>& gaps, const std::vector<
             part.found = find_uncovered(local.problem, local.window, verdict_.stages);
             if (!part.found) continue;
             open.push_back(std::move(part));
-            if (!options_.regions) return;
+            if (!wanted()) return;
         }
     }
 }
@@ -161,9 +162,9 @@ void Judge::judge(int index) {
     const std::vector<CentreGap> centre = centre_gaps(pair_.upper[track_], t, below, pair_.margin, verdict_.stages);
     for (const CentreGap& gap : centre) report_gap(gap);
     const std::size_t before = open.size();
-    if (options_.areas && (centre.empty() || options_.regions)) find_open_parts(gaps, centre);
+    if (options_.areas && (centre.empty() || wanted())) find_open_parts(gaps, centre);
     // Gaps too short for doubles to place them.
-    if (options_.areas && options_.regions)
+    if (options_.areas && wanted())
         for (const CentreGap& c : centre) {
             const double from = enclose(c.from, 60)[0].get_d() * t.length, to = enclose(c.to, 60)[1].get_d() * t.length;
             const bool known = std::any_of(open.begin() + static_cast<std::ptrdiff_t>(before), open.end(), [&](const OpenPart& p) {
@@ -196,6 +197,9 @@ PrintedVerdict verify_printed(const PrintedLayer& upper, const PrintedLayer& low
     Judge judge(pair, options, verdict);
     for (std::size_t i = 0; i < upper.tracks.size(); ++i)
         if (options.judged.empty() || options.judged[i]) judge.judge(static_cast<int>(i));
+    if (options.stretches)
+        for (const OpenPart& part : judge.open)
+            verdict.stretches.push_back({static_cast<std::size_t>(part.track), part.stretch.lo, part.stretch.hi});
     if (options.regions && options.areas) verdict.regions = describe_regions(pair, judge.open, options);
     return verdict;
 }

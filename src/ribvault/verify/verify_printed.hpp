@@ -51,6 +51,13 @@ struct UnsupportedRegion {
     bool component = false;                 ///< exactly one connected component; else a group as said above
 };
 
+/// A stretch of a track above beside which something of its stadium violates (2): all that does lies in the stadiums of these
+/// stretches.
+struct OpenStretch {
+    std::size_t track = 0;         ///< index into upper.tracks
+    double from_mm = 0, to_mm = 0; ///< along it from a; may exceed its ends, whose round caps count
+};
+
 struct PrintedVerdict {
     bool centre_lines_supported = true;  ///< (1): every point of every judged centre line is within ρ of the material
                                          ///< below. Exact
@@ -60,6 +67,7 @@ struct PrintedVerdict {
     std::vector<UnsupportedPiece> pieces;    ///< in the order of the tracks, then along each
     std::vector<char> track_supported;       ///< per track above: 1 when its stadium satisfies (2) or is not judged
     std::vector<UnsupportedRegion> regions;  ///< empty when supported, or not asked for
+    std::vector<OpenStretch> stretches;      ///< empty when supported, or not asked for
     StageCounts stages;
 };
 
@@ -67,6 +75,7 @@ struct PrintedOptions {
     std::vector<char> judged;      ///< per track above; 0: not judged, not material above either. Empty: all are
     bool areas = true;             ///< decide (2) at all; else `supported` is that of (1)
     bool regions = true;           ///< describe what violates (2)
+    bool stretches = false;        ///< where (2) is violated, without a description
     bool boundaries = false;       ///< and trace its boundary
     int area_cells = 600;          ///< effort of a region's area and distance: about so many cells
 };

@@ -1,0 +1,210 @@
+#include "ribvault/print/hold_print.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ribvault/exact/nearest_segment.hpp"
+#include "ribvault/exact/point_location.hpp"
+#include "ribvault/print/printed_tracks.hpp"
+#include "ribvault/print/support_paths.hpp"
+#include "ribvault/verify/outside_outline.hpp"
+#include "ribvault/verify/verify_printed.hpp"
+
+namespace ribvault {
+namespace {
+
+constexpr int rounds = 6;  ///< of mending, each of which is followed by another look
+
+Rational exact_mm(Unit length) {
+    Rational q(static_cast<long>(length), static_cast<unsigned long>(units_per_mm));
+    q.canonicalize();
+    return q;
+}
+Point lattice(const std::array<Rational, 2>& p) {
+    return {round_to_lattice(p[0].get_d() * units_per_mm), round_to_lattice(p[1].get_d() * units_per_mm)};
+}
+
+std::vector<Segment> segments_of(const LayerPlan& plan) {
+    std::vector<Segment> segments;
+    for (const PlannedTrack& track : plan.tracks)
+        for (const ToolPath& path : track.paths) {
+            const std::size_t n = path.points.size();
+            if (n == 1) segments.push_back({path.points[0], path.points[0]});
+            for (std::size_t i = 1; i < n + (path.closed && n > 1 ? 1 : 0); ++i) segments.push_back({path.points[i - 1], path.points[i % n]});
+        }
+    return segments;
+}
+
+/// The stretch of the track above as a segment of the lattice.
+Segment place_of(const PrintedTrack& track, const OpenStretch& stretch) {
+    const Segment whole{lattice(track.a), lattice(track.b)};
+    const double l = length(whole);
+    const auto at = [&](double mm) {
+        const double t = l > 0 ? std::clamp(mm * units_per_mm / l, 0.0, 1.0) : 0;
+        return Point{whole.a.x + round_to_lattice(t * static_cast<double>(whole.b.x - whole.a.x)),
+                     whole.a.y + round_to_lattice(t * static_cast<double>(whole.b.y - whole.a.y))};
+    };
+    return {at(stretch.from_mm), at(stretch.to_mm)};
+}
+
+double distance(const Segment& s, const Segment& t) {
+    if (segments_touch(s, t)) return 0;
+    double least = HUGE_VAL;
+    for (const Point p : {s.a, s.b}) least = std::min(least, squared_distance(p, t).value());
+    for (const Point p : {t.a, t.b}) least = std::min(least, squared_distance(p, s).value());
+    return std::sqrt(least);
+}
+
+class Holder {
+public:
+    Holder(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings)
+        : shell_(std::move(shell)), forest_(forest), above_(above), settings_(settings), rho_(exact_mm(settings.support_radius)) {
+        if (settings.gaps == Gaps::none)
+            for (auto [e, end] = edges(forest_); e != end; ++e) forest_[*e].to_junction = true;
+    }
+
+    HeldLayer run() {
+        lay_tracks();
+        std::vector<OpenStretch> open = look();
+        bool close = true;
+        for (int round = 0; settings_.gaps != Gaps::paper && !open.empty() && round < rounds; ++round) {
+            close = close && close_gaps(open) > 0;
+            if (!close) patch(open);
+            lay_tracks();
+            open = look();
+        }
+        return std::move(held_);
+    }
+
+private:
+    void lay_tracks() {
+        held_.plan = shell_;
+        append_support_paths(forest_, settings_, held_.plan);
+        for (const Segment& s : patches_) {
+            ToolPath path{TrackKind::support, settings_.nozzle, false, {s.a}};
+            if (s.b != s.a) path.points.push_back(s.b);
+            held_.plan.tracks.push_back({{std::move(path)}, Entry::either_end, no_stop});
+        }
+        held_.printed = printed_layer(held_.plan);
+    }
+
+    std::vector<OpenStretch> look() {
+        PrintVerdict& verdict = held_.verdict;
+        verdict.supported = true, verdict.external_mm = {0, 0};
+        if (!above_) return {};
+        PrintedOptions options;
+        options.regions = false, options.stretches = true;
+        PrintedLayer below = held_.printed;
+        std::vector<PrintedTrack> outside = stretches_outside(*above_, held_.printed);
+        below.tracks.insert(below.tracks.end(), outside.begin(), outside.end());
+        PrintedVerdict inside = verify_printed(*above_, below, rho_, options);
+        verdict.supported = inside.supported;
+        verdict.stages += inside.stages;
+        verdict.unsupported_mm = sum(inside);
+        if (!inside.stretches.empty()) {
+            const OpenStretch& first = inside.stretches.front();
+            const Segment place = place_of(above_->tracks[first.track], first);
+            verdict.place = {to_mm((place.a.x + place.b.x) / 2), to_mm((place.a.y + place.b.y) / 2)};
+        }
+        if (!outside.empty()) {
+            options.areas = options.stretches = false;
+            const PrintedVerdict all = verify_printed(*above_, held_.printed, rho_, options);
+            const std::array<double, 2> total = sum(all);
+            verdict.stages += all.stages;
+            verdict.external_mm = {std::max(0.0, total[0] - verdict.unsupported_mm[1]), std::max(0.0, total[1] - verdict.unsupported_mm[0])};
+        }
+        return std::move(inside.stretches);
+    }
+    static std::array<double, 2> sum(const PrintedVerdict& verdict) {
+        std::array<double, 2> total{0, 0};
+        for (const std::array<double, 2>& l : verdict.unsupported_length) total[0] += l[0], total[1] += l[1];
+        return total;
+    }
+
+    /// Branches that begin near what is open reach their junction from now on. How many are new.
+    int close_gaps(const std::vector<OpenStretch>& open) {
+        int closed = 0;
+        for (auto [e, end] = edges(forest_); e != end; ++e) {
+            if (forest_[*e].to_junction) continue;
+            const Segment wall{forest_[source(*e, forest_)].at, forest_[target(*e, forest_)].at};
+            for (const OpenStretch& stretch : open) {
+                const PrintedTrack& track = above_->tracks[stretch.track];
+                // What hangs is within half a width of the stretch; the part in the gap that would hold it, within r + ρ of
+                // that; and the wall begins at most one width before.
+                const double reach = track.width.get_d() / 2 * units_per_mm + static_cast<double>(settings_.nozzle / 2 + settings_.support_radius + settings_.nozzle);
+                if (distance(wall, place_of(track, stretch)) > reach) continue;
+                forest_[*e].to_junction = true;
+                ++closed;
+                break;
+            }
+        }
+        held_.closed_gaps += closed;
+        return closed;
+    }
+
+    void patch(const std::vector<OpenStretch>& open) {
+        const NearestSegment material(segments_of(held_.plan));
+        std::vector<Segment> loops;
+        for (const PlannedTrack& track : shell_.tracks)
+            for (const ToolPath& path : track.paths)
+                if (path.closed && path.kind == TrackKind::outer_perimeter)
+                    for (std::size_t i = 0, n = path.points.size(); i < n; ++i) loops.push_back({path.points[i], path.points[(i + 1) % n]});
+        const PointLocation outline(loops, units_per_mm / 2);
+        const Unit step = settings_.support_radius - 2;
+        const auto move = [&](Point p) {
+            if (material.empty()) return p;
+            const Point near = nearest_point(p, material.segments()[material.nearest(p).index]);
+            const double d = length(near - p);
+            if (d <= static_cast<double>(step)) return near;
+            const double t = static_cast<double>(step) / d;
+            return Point{p.x + round_to_lattice(t * static_cast<double>(near.x - p.x)), p.y + round_to_lattice(t * static_cast<double>(near.y - p.y))};
+        };
+        for (const OpenStretch& stretch : open) {
+            Segment s = place_of(above_->tracks[stretch.track], stretch);
+            // Tried before without success: now just below it.
+            const bool again = std::find(tried_.begin(), tried_.end(), s.a) != tried_.end();
+            tried_.push_back(s.a);
+            if (!again) {
+                const Point middle{(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2};
+                const Unit half = round_to_lattice(length(s) / 2) + 2;
+                if (half <= step) {
+                    // Short: a dot that both its ends can reach.
+                    const Point near = move(middle);
+                    const double way = length(near - middle), free = static_cast<double>(step) - static_cast<double>(half);
+                    const double t = way > free ? free / way : 1;
+                    const Point dot{middle.x + round_to_lattice(t * static_cast<double>(near.x - middle.x)), middle.y + round_to_lattice(t * static_cast<double>(near.y - middle.y))};
+                    s = {dot, dot};
+                } else {
+                    s = {move(s.a), move(s.b)};
+                }
+            }
+            if (outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) {
+                const Segment whole = place_of(above_->tracks[stretch.track], stretch);
+                const Point middle{(whole.a.x + whole.b.x) / 2, (whole.a.y + whole.b.y) / 2};
+                const Point inside = outline.locate(whole.a) != Side::outside ? whole.a : outline.locate(whole.b) != Side::outside ? whole.b : middle;
+                if (outline.locate(inside) == Side::outside) continue;
+                s = {inside, inside};
+            }
+            patches_.push_back(s);
+            ++held_.patches;
+            held_.patch_length += round_to_lattice(length(s));
+        }
+    }
+
+    LayerPlan shell_;
+    SupportForest forest_;
+    const PrintedLayer* above_;
+    const Settings& settings_;
+    Rational rho_;
+    HeldLayer held_;
+    std::vector<Segment> patches_;
+    std::vector<Point> tried_;
+};
+
+}  // namespace
+
+HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings) {
+    return Holder(std::move(shell), forest, above, settings).run();
+}
+
+}  // namespace ribvault
