@@ -78,7 +78,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
 
     const int layers = slicer.layer_count(), up = settings.top_layers, down = settings.bottom_layers;
-    Clock slicing, eroding, cavities, overhangs, sweeping, holding, finishing;
+    Clock slicing, eroding, cavities, overhangs, planning, sweeping, holding, finishing;
 
     int next = layers - 1;  // after the last slice come empty tokens that push the last layers through
     const int last = -down - 1;
@@ -112,7 +112,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
         for (int j = layer + up; complete && j >= layer - down; --j)
             token->eroded.push_back(window[static_cast<std::size_t>(window_top - j)].region);
         Eroded& own = window[static_cast<std::size_t>(window_top - layer)];
-        token->material = {layer, own.slice, nullptr, nullptr, std::move(own.closings)};
+        token->material = {layer, own.slice, nullptr, nullptr, std::move(own.closings), nullptr};
         return token;
     };
     const auto hollow = [&](TokenPtr token) {
@@ -136,7 +136,13 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
         return token;
     };
     const auto hang = [&](TokenPtr token) {
-        if (token->layer >= 0 && token->above.slice)
+        if (token->layer < 0) return token;
+        planning.measure([&] {
+            token->material.shell = std::make_shared<LayerPlan>();
+            token->material.shell->layer = token->layer;
+            append_shell_paths(*token->material.slice, token->material.cavity->region, settings, track_settings, *token->material.shell);
+        });
+        if (token->above.slice)
             overhangs.measure([&] {
                 token->overhang = overhang_over_cavity(*token->material.cavity, *token->above.slice,
                                                        *token->above.cavity, settings);
@@ -167,10 +173,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
         if (!token->swept) return token;
         holding.measure([&] {
             const LayerMaterial& material = token->swept->material;
-            LayerPlan shell;
-            shell.layer = material.layer;
-            append_shell_paths(*material.slice, material.cavity->region, settings, track_settings, shell);
-            token->swept->held = hold_print(std::move(shell), token->swept->forest, top ? nullptr : &printed_above, settings);
+            token->swept->held = hold_print(std::move(*material.shell), token->swept->forest, top ? nullptr : &printed_above, settings);
             printed_above = std::move(token->swept->held.printed);
             top = false;
         });
@@ -198,7 +201,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
                     tbb::make_filter<TokenPtr, void>(filter_mode::serial_in_order, deliver));
     if (stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
     return {{"slice", slicing.seconds()},    {"erode", eroding.seconds()},  {"cavity", cavities.seconds()},
-            {"overhang", overhangs.seconds()}, {"sweep", sweeping.seconds()}, {"hold", holding.seconds()}, {"finish", finishing.seconds()}};
+            {"overhang", overhangs.seconds()}, {"sweep", sweeping.seconds()}, {"shell", planning.seconds()}, {"hold", holding.seconds()}, {"finish", finishing.seconds()}};
 }
 
 }  // namespace ribvault

@@ -23,6 +23,7 @@ struct LayerMaterial {
     std::shared_ptr<const Cavity> cavity;             ///< C_i
     std::shared_ptr<const std::vector<Segment>> tracks;  ///< S_i as segments; dots as segments of no length
     std::vector<GapClosing> closings;
+    std::shared_ptr<LayerPlan> shell;  ///< perimeters and covers; taken by hold_print
 };
 
 /// A layer with everything known about it that its neighbours decide.

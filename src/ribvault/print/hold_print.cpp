@@ -65,14 +65,20 @@ public:
 
     HeldLayer run() {
         lay_tracks();
-        std::vector<OpenStretch> open = look();
+        if (!above_) return std::move(held_);
+        outside_ = stretches_outside(*above_, held_.printed);  // the outline stays the same
+        std::vector<OpenStretch> open = look({});
         bool close = true;
         for (int round = 0; settings_.gaps != Gaps::paper && !open.empty() && round < rounds; ++round) {
             close = close && close_gaps(open) > 0;
             if (!close) patch(open);
             lay_tracks();
-            open = look();
+            // More material below leaves what was held up as it was.
+            std::vector<char> still(above_->tracks.size(), 0);
+            for (const OpenStretch& stretch : open) still[stretch.track] = 1;
+            open = look(still);
         }
+        measure_outside();
         return std::move(held_);
     }
 
@@ -88,16 +94,15 @@ private:
         held_.printed = printed_layer(held_.plan);
     }
 
-    std::vector<OpenStretch> look() {
-        PrintVerdict& verdict = held_.verdict;
-        verdict.supported = true, verdict.external_mm = {0, 0};
-        if (!above_) return {};
+    /// What of the judged tracks above (all: empty) inside the outline is not held up.
+    std::vector<OpenStretch> look(std::vector<char> judged) {
         PrintedOptions options;
         options.regions = false, options.stretches = true;
+        options.judged = std::move(judged);
         PrintedLayer below = held_.printed;
-        std::vector<PrintedTrack> outside = stretches_outside(*above_, held_.printed);
-        below.tracks.insert(below.tracks.end(), outside.begin(), outside.end());
+        below.tracks.insert(below.tracks.end(), outside_.begin(), outside_.end());
         PrintedVerdict inside = verify_printed(*above_, below, rho_, options);
+        PrintVerdict& verdict = held_.verdict;
         verdict.supported = inside.supported;
         verdict.stages += inside.stages;
         verdict.unsupported_mm = sum(inside);
@@ -106,14 +111,18 @@ private:
             const Segment place = place_of(above_->tracks[first.track], first);
             verdict.place = {to_mm((place.a.x + place.b.x) / 2), to_mm((place.a.y + place.b.y) / 2)};
         }
-        if (!outside.empty()) {
-            options.areas = options.stretches = false;
-            const PrintedVerdict all = verify_printed(*above_, held_.printed, rho_, options);
-            const std::array<double, 2> total = sum(all);
-            verdict.stages += all.stages;
-            verdict.external_mm = {std::max(0.0, total[0] - verdict.unsupported_mm[1]), std::max(0.0, total[1] - verdict.unsupported_mm[0])};
-        }
         return std::move(inside.stretches);
+    }
+    void measure_outside() {
+        if (outside_.empty()) return;
+        PrintedLayer upper;
+        upper.tracks = outside_;
+        for (PrintedTrack& t : upper.tracks) t.width = above_->tracks.front().width;
+        PrintedOptions options;
+        options.areas = options.regions = false;
+        const PrintedVerdict outside = verify_printed(upper, held_.printed, rho_, options);
+        held_.verdict.external_mm = sum(outside);
+        held_.verdict.stages += outside.stages;
     }
     static std::array<double, 2> sum(const PrintedVerdict& verdict) {
         std::array<double, 2> total{0, 0};
@@ -159,7 +168,13 @@ private:
             const double t = static_cast<double>(step) / d;
             return Point{p.x + round_to_lattice(t * static_cast<double>(near.x - p.x)), p.y + round_to_lattice(t * static_cast<double>(near.y - p.y))};
         };
+        const std::size_t before = patches_.size();
         for (const OpenStretch& stretch : open) {
+            const Segment hanging = place_of(above_->tracks[stretch.track], stretch);
+            const bool held = std::any_of(patches_.begin() + static_cast<std::ptrdiff_t>(before), patches_.end(), [&](const Segment& p) {
+                return compare_distance(hanging.a, p, step) <= 0 && compare_distance(hanging.b, p, step) <= 0;
+            });
+            if (held) continue;
             Segment s = place_of(above_->tracks[stretch.track], stretch);
             // Tried before without success: now just below it.
             const bool again = std::find(tried_.begin(), tried_.end(), s.a) != tried_.end();
@@ -199,6 +214,7 @@ private:
     HeldLayer held_;
     std::vector<Segment> patches_;
     std::vector<Point> tried_;
+    std::vector<PrintedTrack> outside_;
 };
 
 }  // namespace

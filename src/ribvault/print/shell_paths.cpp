@@ -90,6 +90,22 @@ void append_thin_walls(const Region& outline, const Region& outermost, Unit w, b
     }
 }
 
+/// What is left between the perimeters and the cavity beside the covers' areas (of centre lines): rings where a slope is
+/// steep, too narrow for straight fill.
+void append_narrow_covers(const Region& outline, const Region& cavity, const std::vector<Region>& areas, int perimeters, Unit w, LayerPlan& plan) {
+    const double width = static_cast<double>(w);
+    Region filled;
+    for (const Region& area : areas)
+        for (Contour& contour : mitred(area, width / 2 + 10)) filled.push_back(std::move(contour));
+    // Ten lattice units less and more, so that no slivers of rounding are left.
+    const Region inside = mitred(outline, -(perimeters * width + 10));
+    filled.insert(filled.end(), cavity.begin(), cavity.end());
+    for (const Region& piece : connected_pieces(clip(cl::ctDifference, inside, filled))) {
+        if (signed_area(piece) < width * width / 2) continue;
+        for (PlannedTrack& ring : medial_tracks(piece, w, TrackKind::cover)) plan.tracks.push_back(std::move(ring));
+    }
+}
+
 /// Where centre lines of covers may run, as connected areas with their holes. Eroding O_i \ C_i is eroding O_i and
 /// dilating C_i, and keeps Clipper away from the nearly coincident borders of the two.
 std::vector<Region> cover_areas(const Region& outline, const Region& cavity, int perimeters, double width) {
@@ -130,8 +146,9 @@ void append_shell_paths(const Slice& slice, const Region& cavity, const Settings
     const Region outermost = mitred(outline, -static_cast<double>(w) / 2);
     append_perimeters(outermost, w, settings, tracks, outline, plan);
     append_thin_walls(outline, outermost, w, tracks.thin_walls, plan);
-    for (const Region& area : cover_areas(outline, cavity, settings.perimeters, static_cast<double>(w)))
-        append_covers(area, w, slice.layer % 2 != 0, tracks.covers, plan);
+    const std::vector<Region> areas = cover_areas(outline, cavity, settings.perimeters, static_cast<double>(w));
+    for (const Region& area : areas) append_covers(area, w, slice.layer % 2 != 0, tracks.covers, plan);
+    append_narrow_covers(outline, cavity, areas, settings.perimeters, w, plan);
 }
 
 }  // namespace ribvault
