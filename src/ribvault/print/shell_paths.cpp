@@ -101,7 +101,8 @@ void append_narrow_covers(const Region& outline, const Region& cavity, const std
     const Region inside = mitred(outline, -(perimeters * width + 10));
     filled.insert(filled.end(), cavity.begin(), cavity.end());
     for (const Region& piece : connected_pieces(clip(cl::ctDifference, inside, filled))) {
-        if (signed_area(piece) < width * width / 2) continue;
+        // Nowhere d / 2 wide: nothing to print, and no need of a medial axis to know it.
+        if (signed_area(piece) < width * width / 2 || mitred(piece, -width / 4).empty()) continue;
         for (PlannedTrack& ring : medial_tracks(piece, w, TrackKind::cover)) plan.tracks.push_back(std::move(ring));
     }
 }
