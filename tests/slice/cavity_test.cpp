@@ -155,11 +155,11 @@ TEST_CASE(
             return edges.empty() || rational_squared_distance(p, edges.segments()[edges.nearest(p).index]) >
                                         Rational(whole(r) * whole(r));
         };
-        for (int q = 0; q < 400; ++q) {
+        for (int q = 0; q < 800; ++q) {
             // Anywhere, or where it is hardest to tell: about ρ from an edge of the shell, or along the cavity above.
             Point p{pick(g, -size, size), pick(g, -size, size)};
             if (q % 4 != 0) {
-                const NearestSegment& edges = q % 4 == 1 && !hole.empty() ? hole : shell;
+                const NearestSegment& edges = q % 4 != 1 ? shell : q % 8 == 1 || hole.empty() ? outline : hole;
                 const Segment& e = edges.segments()[static_cast<std::size_t>(
                     pick(g, 0, static_cast<Unit>(edges.segments().size()) - 1))];
                 const double t = std::uniform_real_distribution<double>(0, 1)(g), l = std::max(1.0, length(e));
