@@ -71,7 +71,11 @@ private:
         const Segment s{above_[a].at, above_[b].at};
         find_meetings(s, boundary_, meetings_);
         if (meetings_.empty()) {
-            if (!inside_[a]) return;
+            if (!inside_[a]) {
+                // The shell holds up its middle line, but beside it the track may reach farther into the cavity than ρ.
+                if (!shell_holds_tracks_) result_.inherited.push_back(s);
+                return;
+            }
             add(vertex(a), vertex(b), index);
             result_.inherited.push_back(s);
             return;

@@ -17,8 +17,8 @@ struct CopiedSupports {
 /// else to the nearest point of the shell, or to another tree's wall that stands in the way.
 /// A dot vanishes when its place is shell on this layer, and is prolonged like any root when it is not.
 ///
-/// shell_holds_tracks: ρ >= r, so that a wall inside the shell is held up by it over its whole width; otherwise walls that
-/// meet the boundary are inherited whole.
+/// shell_holds_tracks: ρ >= r, so that a wall inside the shell is held up by it over its whole width; otherwise walls
+/// in the shell and those that meet the boundary are inherited whole.
 CopiedSupports copy_supports(const SupportForest& above, const CavityBoundary& boundary, bool shell_holds_tracks);
 
 }  // namespace ribvault
