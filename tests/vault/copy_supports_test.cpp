@@ -79,6 +79,33 @@ TEST_CASE("a prolonged trunk joins another tree that stands in its way") {
     CHECK(num_edges(copy.forest) == 4);
 }
 
+TEST_CASE("a root that its own tree keeps from the shell becomes a tip when the tree has another root") {
+    // A hook whose first root hangs above its own wall; the second root stays on the shell at the right.
+    const SupportForest hook = forest_of({{{0, 30000}, {0, 90000}, {-80000, 90000}, {-80000, 10000}, {200000, 10000}},
+                                          {0, 4},
+                                          {{0, 1}, {1, 2}, {2, 3}, {3, 4}}});
+    const CavityBoundary boundary = room(-900000, -20000, 200000, 300000);
+    const CopiedSupports copy = copy_supports(hook, boundary, true);
+    CHECK(num_edges(copy.forest) == 4);
+    CHECK(total_length(copy.forest) == total_length(hook));
+    CHECK(crossings(copy.forest).count == 0);
+    CHECK(forest_fault(copy.forest).empty());
+}
+
+TEST_CASE("a trunk cut off but for two units still stands on the shell") {
+    for (const bool turned : {false, true}) {  // both ends of the edge
+        const SupportForest trunk = forest_of(
+            {{{0, 0}, {0, 100000}, {0, 200000}},
+             {0},
+             {turned ? std::pair<std::size_t, std::size_t>{1, 0} : std::pair<std::size_t, std::size_t>{0, 1}, {1, 2}}});
+        const CavityBoundary boundary = room(-300000, 99998, 300000, 300000);
+        const CopiedSupports copy = copy_supports(trunk, boundary, true);
+        CHECK(num_edges(copy.forest) == 1);
+        CHECK(forest_fault(copy.forest).empty());
+        CHECK(placement_fault(copy.forest, boundary).empty());
+    }
+}
+
 TEST_CASE("an inner wall cuts a tree in two, each rooted on it") {
     const CavityBoundary walled = prepare_boundary(
         {rectangle(-300000, 0, 300000, 300000), reversed(rectangle(-400000 + 150000, 120000, 200000, 130000))});
