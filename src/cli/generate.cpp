@@ -106,6 +106,7 @@ void complete(Written& w) {
     s.first_layer_height = w.first_layer_height.value_or(s.layer_height);
     s.support_radius = w.support_radius.value_or(s.nozzle / 2);
     if (w.overlap) {
+        if (*w.overlap < 0 || *w.overlap >= 1) throw Error(ErrorKind::usage, "--overlap must be a share of a track's width, from 0 to less than 1");
         const Rational radius = (1 - *w.overlap) * s.nozzle;
         if (radius.get_den() != 1) throw Error(ErrorKind::usage, "--overlap: (1 - R) times the nozzle does not lie on the 10 nm lattice; use fewer decimals");
         s.support_radius = radius.get_num().get_si();

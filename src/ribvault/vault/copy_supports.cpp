@@ -71,17 +71,14 @@ private:
     void copy_edge(std::size_t a, std::size_t b, std::int32_t index) {
         const Segment s{above_[a].at, above_[b].at};
         find_meetings(s, boundary_, meetings_);
+        // Even a wall inside the shell may reach into the cavity by more than the shell holds up.
+        if (!shell_holds_tracks_) result_.inherited.push_back(s);
         if (meetings_.empty()) {
-            if (!inside_[a]) {
-                // The shell holds up its middle line, but beside it the track may reach farther into the cavity than ρ.
-                if (!shell_holds_tracks_) result_.inherited.push_back(s);
-                return;
-            }
+            if (!inside_[a]) return;
             add(vertex(a), vertex(b), index);
-            result_.inherited.push_back(s);
+            if (shell_holds_tracks_) result_.inherited.push_back(s);
             return;
         }
-        if (!shell_holds_tracks_) result_.inherited.push_back(s);
         // Between two meetings the wall is on one side; which, is read off at the rounded middle: what to keep of a wall
         // that runs along the shell within a rounding is a choice.
         for (std::size_t k = 0; k <= meetings_.size(); ++k) {
