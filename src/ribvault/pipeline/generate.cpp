@@ -132,7 +132,7 @@ private:
         plan.layer = layer.layer;
         append_shell_paths(*layer.slice, layer.cavity->region, s, job_.tracks, plan);
         append_support_paths(swept.forest, s, plan);
-        const LayerPaths paths = order_paths(std::move(plan), layer.slice->rounded);
+        const LayerPaths paths = order_paths(std::move(plan), layer.slice->rounded, job_.tracks.alternate);
         output->map = TravelMap(layer.slice->rounded, layer.cavity->region, paths);
         const std::vector<ToolPath> beside = layer.layer == 0 ? skirt_and_brim(layer.slice->rounded, s, job_.tracks) : std::vector<ToolPath>();
         output->text = gcode_layer(paths, output->map, s, job_.printer, beside);
