@@ -3,6 +3,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/printer_options.hpp"
 #include "cli/progress.hpp"
 #include "ribvault/error.hpp"
 #include "ribvault/pipeline/generate.hpp"
@@ -89,21 +90,7 @@ void add_placement(CLI::App* command, Written& w) {
         char rest = 0;
         if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.bed_x, &p.bed_y, &p.bed_z, &rest) != 3)
             throw Error(ErrorKind::usage, "--bed: '" + text + "' is not a size; write for example --bed 250,210,200");
-    }, "size of the printer (default 250,250,250)")->type_name("X,Y,Z");
-}
-
-void add_printer(CLI::App* command, PrinterSettings& p) {
-    const auto group = command->add_option_group("Printer");
-    group->add_option("--filament-diameter", p.filament_diameter, "mm")->capture_default_str();
-    group->add_option("--temperature", p.nozzle_temperature, "nozzle, degrees C")->capture_default_str();
-    group->add_option("--bed-temperature", p.bed_temperature, "degrees C")->capture_default_str();
-    group->add_option("--print-speed", p.print_speed, "perimeters and covers, mm/s")->capture_default_str();
-    group->add_option("--support-speed", p.support_speed, "supports, mm/s")->capture_default_str();
-    group->add_option("--first-layer-speed", p.first_layer_speed, "mm/s")->capture_default_str();
-    group->add_option("--travel-speed", p.travel_speed, "mm/s")->capture_default_str();
-    group->add_option("--retraction", p.retraction, "mm of filament")->capture_default_str();
-    group->add_option("--retraction-speed", p.retraction_speed, "mm/s")->capture_default_str();
-    group->add_option("--prime-surplus", p.prime_surplus, "share of the retraction added before support paths")->capture_default_str();
+    }, "size of the printer (default: the profile's; without one 250,250,250)")->type_name("X,Y,Z");
 }
 
 void set_rotation(Written& w) {
@@ -140,6 +127,7 @@ void complete(Written& w) {
     w.job.placement.bed_x = w.job.printer.bed_x;
     w.job.placement.bed_y = w.job.printer.bed_y;
     w.job.placement.bed_z = w.job.printer.bed_z;
+    w.job.placement.origin_at_centre = w.job.printer.origin_at_centre;
     w.job.model = w.model;
     const auto path = [](const std::string& text) { return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text); };
     w.job.gcode = path(w.gcode), w.job.report = path(w.report), w.job.svg = path(w.svg), w.job.mesh = path(w.mesh);
@@ -170,7 +158,9 @@ std::function<int()> add_generate(CLI::App& app) {
     command->add_option("--mesh", written->mesh, "supports as solids, .stl or .3mf")->type_name("FILE");
     command->add_option("--threads", written->job.threads, "0: all processors")->check(CLI::Range(0, 1024));
     command->add_flag("--quiet", written->quiet, "print errors only");
+    add_profiles(command, written->job, written->first_layer_height);
     add_geometry(command, *written);
+    add_tracks(command, written->job.tracks);
     add_placement(command, *written);
     add_printer(command, written->job.printer);
     return [written] { return run(*written); };

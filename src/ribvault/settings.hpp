@@ -88,7 +88,7 @@ struct PrinterSettings {
     double travel_speed = 150;        ///< mm/s
     double retraction = 3;            ///< mm of filament
     double retraction_speed = 40;     ///< mm/s
-    double retract_over = 2;          ///< mm: a travel with less open air under it does not retract
+    double retract_over = 5;          ///< mm: a travel with at most so much open air under it does not retract
     double longest_detour = 20;       ///< mm that a travel may be longer than straight to stay inside the shell
     double prime_surplus = 0.05;      ///< Section 5.1: share of the retraction pushed in addition before a support path
     double surplus_clearance = 1.0;   ///< mm: no surplus when a support path starts nearer to a perimeter

@@ -4,6 +4,7 @@
 
 #include "print/geometry.hpp"
 #include "ribvault/print/cover_lines.hpp"
+#include "ribvault/print/order_paths.hpp"
 #include "ribvault/print/shell_paths.hpp"
 
 using namespace ribvault;
@@ -40,11 +41,11 @@ Slice slice_of(Region outline, int layer = 0) {
     return slice;
 }
 
-LayerPaths shell_paths(const Region& outline, const Region& cavity, const Settings& settings, int layer = 0) {
-    LayerPaths paths;
-    paths.layer = layer;
-    append_shell_paths(slice_of(outline, layer), cavity, settings, paths);
-    return paths;
+LayerPaths shell_paths(const Region& outline, const Region& cavity, const Settings& settings, int layer = 0, TrackSettings tracks = {}) {
+    LayerPlan plan;
+    plan.layer = layer;
+    append_shell_paths(slice_of(outline, layer), cavity, settings, tracks, plan);
+    return order_paths(std::move(plan), outline);
 }
 
 /// Every postcondition of append_shell_paths.
@@ -54,6 +55,7 @@ void check_shell(const Region& outline, const Region& cavity, const Settings& se
     bool covers_began = false;
     for (const ToolPath& path : layer.paths) {
         REQUIRE(path.points.size() >= 2);
+        if (path.kind == TrackKind::thin_wall) continue;
         REQUIRE(path.width == settings.nozzle);
         const std::vector<Segment> track = segments(path);
         const double to_border = distance(track, border);
@@ -177,15 +179,154 @@ TEST_CASE("covers around a cavity link along curved borders") {
     CHECK(layer.paths.size() < 20);
 }
 
-TEST_CASE("places narrower than one track get nothing, those just wider get a perimeter, then a cover") {
-    const auto tracks = [](Unit width) {
-        return shell_paths({rectangle(0, 0, 10 * mm, width)}, {}, Settings{}).paths.size();
+TEST_CASE("places narrower than one track get a track of their width, those just wider a perimeter, then a cover") {
+    const auto layer = [](Unit width, bool thin = true) {
+        TrackSettings tracks;
+        tracks.thin_walls = thin;
+        return shell_paths({rectangle(0, 0, 10 * mm, width)}, {}, Settings{}, 0, tracks);
     };
-    CHECK(tracks(39000) == 0);
-    CHECK(tracks(41000) == 1);
-    CHECK(tracks(118000) == 1);
-    CHECK(tracks(125000) >= 2);
+    const LayerPaths wall = layer(32000);
+    REQUIRE(wall.paths.size() == 1);
+    CHECK(wall.paths[0].kind == TrackKind::thin_wall);
+    CHECK(wall.paths[0].width == 32000);
+    CHECK(wall.thin_places == 0);
+    CHECK(length(wall.paths[0]) > 9 * mm);
+    for (Point p : wall.paths[0].points) CHECK(std::abs(p.y - 16000) <= 1);
+    for (const LayerPaths& without : {layer(19000), layer(32000, false)}) {
+        CHECK(without.paths.empty());
+        CHECK(without.thin_places == 1);
+        CHECK(without.thin_area > 0.9 * 19000 * 10 * mm);
+    }
+    CHECK(layer(41000).paths.size() == 1);
+    CHECK(layer(41000).thin_places == 0);
+    CHECK(layer(118000).paths.size() == 1);
+    CHECK(layer(125000).paths.size() >= 2);
     CHECK(shell_paths({}, {}, Settings{}).paths.empty());
+}
+
+TEST_CASE("a wedge gets a thin wall whose width follows it, inside the slice, up to the perimeter") {
+    const Region wedge{{{0, 0}, {20 * mm, -60000}, {20 * mm, 60000}}};
+    const LayerPaths layer = shell_paths(wedge, {}, Settings{});
+    Unit widest = 0, narrowest = mm;
+    double from = 20.0 * mm, to = 0;
+    for (const ToolPath& path : layer.paths) {
+        if (path.kind != TrackKind::thin_wall) continue;
+        widest = std::max(widest, path.width), narrowest = std::min(narrowest, path.width);
+        CHECK(distance(segments(path), segments(wedge)) >= static_cast<double>(path.width) / 2 - 2);
+        for (Point p : path.points) from = std::min(from, static_cast<double>(p.x)), to = std::max(to, static_cast<double>(p.x));
+    }
+    CHECK(narrowest == 20000);
+    CHECK(widest >= 34000);
+    CHECK(from < 3.5 * mm);  // the wedge is half a track wide at 3.33 mm
+    double perimeter = 20.0 * mm;
+    for (const ToolPath& path : layer.paths)
+        if (path.kind == TrackKind::outer_perimeter)
+            for (Point p : path.points) perimeter = std::min(perimeter, static_cast<double>(p.x));
+    CHECK(perimeter - to < 40000);
+}
+
+TEST_CASE("the printed shell fills slices that a thin wall crosses: what has no material is reported") {
+    // Two blocks joined by a wall of 0.3 mm.
+    const Region outline{{{0, 0}, {5 * mm, 0}, {5 * mm, 2 * mm}, {12 * mm, 2 * mm}, {12 * mm, 0}, {17 * mm, 0}, {17 * mm, 5 * mm},
+                          {12 * mm, 5 * mm}, {12 * mm, 230000}, {5 * mm, 230000}, {5 * mm, 5 * mm}, {0, 5 * mm}}};
+    const LayerPaths layer = shell_paths(outline, {}, Settings{});
+    double wall = 0;
+    for (const ToolPath& path : layer.paths)
+        if (path.kind == TrackKind::thin_wall) {
+            wall += length(path);
+            CHECK(path.width == 30000);
+        }
+    CHECK(wall > 6.5 * mm);
+    CHECK(wall < 7.5 * mm);
+    CHECK(layer.thin_places == 0);
+}
+
+TEST_CASE("perimeters come outer first or inner first, each after its neighbour") {
+    Settings settings;
+    settings.perimeters = 3;
+    const Region outline{rectangle(0, 0, 20 * mm, 20 * mm), rectangle(6 * mm, 6 * mm, 14 * mm, 14 * mm, true)};
+    for (const bool inner_first : {false, true}) {
+        TrackSettings tracks;
+        tracks.inner_first = inner_first;
+        const LayerPaths layer = shell_paths(outline, {rectangle(2 * mm, 2 * mm, 4 * mm, 18 * mm)}, settings, 2, tracks);
+        std::vector<double> to_outside, to_hole;
+        for (const ToolPath& path : layer.paths) {
+            if (!path.closed) continue;
+            const double outside = distance(segments(path), segments({outline[0]})), hole = distance(segments(path), segments({outline[1]}));
+            (outside < hole ? to_outside : to_hole).push_back(std::min(outside, hole));
+        }
+        REQUIRE(to_outside.size() == 3);
+        REQUIRE(to_hole.size() == 3);
+        for (const auto& rings : {to_outside, to_hole})
+            CHECK(std::is_sorted(rings.begin(), rings.end(), [&](double a, double b) { return inner_first ? a > b : a < b; }));
+    }
+}
+
+TEST_CASE("the seam lies at the rear, at the sharpest corner, or where travel is least") {
+    const Region outline{{{0, 0}, {10 * mm, 0}, {16 * mm, 2 * mm}, {10 * mm, 4 * mm}, {10 * mm, 10 * mm}, {0, 10 * mm}}};
+    const auto seam = [&](Seam rule) {
+        TrackSettings tracks;
+        tracks.seam = rule;
+        return shell_paths(outline, {}, Settings{}, 0, tracks).paths.front().points.front();
+    };
+    CHECK(seam(Seam::aligned) == Point{20000, 980000});
+    CHECK(seam(Seam::corner).x > 1500000);
+    CHECK(seam(Seam::nearest) != seam(Seam::corner));
+}
+
+TEST_CASE("monotonic covers: every line comes after all that lie before it, beside it") {
+    std::mt19937_64 random(31);
+    for (int round = 0; round < 20; ++round) {
+        Region outline{star(random, {0, 0}, 14 + round, 6, 9)};
+        if (round % 2) outline.push_back(star(random, {0, 0}, 9, 2, 3, true));
+        TrackSettings tracks;
+        tracks.covers = CoverPattern::monotonic;
+        const LayerPaths layer = shell_paths(outline, {}, Settings{}, 2 * round, tracks);
+        // On even layers lines rise at 45 degrees: y - x is the same along each.
+        std::vector<Segment> printed;
+        for (const ToolPath& path : layer.paths) {
+            if (path.kind != TrackKind::cover) continue;
+            for (const Segment& s : segments(path)) {
+                if (s.b.y - s.a.y != s.b.x - s.a.x) continue;
+                for (const Segment& before : printed) {
+                    if (before.a.y - before.a.x <= s.a.y - s.a.x + 10) continue;
+                    CHECK(distance(before, s) > 1.05 * 40000);  // not beside each other
+                }
+                printed.push_back(s);
+            }
+        }
+        CHECK(printed.size() > 10);
+    }
+}
+
+TEST_CASE("concentric covers follow the border, d apart, and leave no middle unfilled") {
+    TrackSettings tracks;
+    tracks.covers = CoverPattern::concentric;
+    const Region outline{rectangle(0, 0, 10 * mm, 10 * mm)};
+    const LayerPaths layer = shell_paths(outline, {}, Settings{}, 0, tracks);
+    check_shell({outline}, {}, Settings{}, [&] {
+        LayerPaths perimeters = layer;
+        std::erase_if(perimeters.paths, [](const ToolPath& p) { return p.kind == TrackKind::cover; });
+        return perimeters;
+    }());
+    double material = 0;
+    for (const ToolPath& path : layer.paths) {
+        material += length(path) * static_cast<double>(path.width);
+        if (path.kind == TrackKind::cover && path.closed) CHECK(distance(segments(path), segments(outline)) >= 60000 - rounding);
+    }
+    CHECK(material > 0.95 * mm * mm * 100);
+    CHECK(material < 1.01 * mm * mm * 100);
+}
+
+TEST_CASE("the first layer's tracks have its width, those above d") {
+    TrackSettings tracks;
+    tracks.first_layer_width = 50000;
+    const Region outline{rectangle(0, 0, 10 * mm, 10 * mm)};
+    for (const int number : {0, 1})
+        for (const ToolPath& path : shell_paths(outline, {}, Settings{}, number, tracks).paths) CHECK(path.width == (number == 0 ? 50000 : 40000));
+    CHECK(distance(segments(shell_paths(outline, {}, Settings{}, 0, tracks).paths.front()), segments(outline)) == 25000);
+    tracks.first_layer_width = 30000;
+    CHECK_THROWS_WITH(tracks.check(40000), Catch::Contains("--first-layer-width"));
 }
 
 TEST_CASE("cover lines end inside the area, exactly, and every area with an inside gets one") {

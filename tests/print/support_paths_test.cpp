@@ -1,11 +1,14 @@
 #include <catch2/catch.hpp>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "print/geometry.hpp"
 #include "print/random_forest.hpp"
 #include "ribvault/error.hpp"
+#include "ribvault/print/order_paths.hpp"
 #include "ribvault/print/support_paths.hpp"
+#include "ribvault/slice/lattice_clip.hpp"
 
 using namespace ribvault;
 using namespace ribvault::test;
@@ -15,9 +18,18 @@ namespace {
 constexpr Unit mm = units_per_mm;
 
 LayerPaths support_paths(const SupportForest& forest) {
-    LayerPaths layer;
-    append_support_paths(forest, Settings{}, layer);
-    return layer;
+    LayerPlan plan;
+    append_support_paths(forest, Settings{}, plan);
+    return order_paths(std::move(plan), {});
+}
+
+/// The paths as they were planned, outwards from their junctions, before travel turns and sorts them.
+std::vector<std::vector<Point>> planned(const SupportForest& forest) {
+    LayerPlan plan;
+    append_support_paths(forest, Settings{}, plan);
+    std::vector<std::vector<Point>> all;
+    for (const PlannedTrack& track : plan.tracks) all.push_back(track.paths.at(0).points);
+    return all;
 }
 
 std::vector<std::vector<Point>> points_of(const LayerPaths& layer) {
@@ -63,7 +75,11 @@ struct Rooted {
 };
 
 /// Everything that Section 4.4 asks of a layer's paths; `long_edges` when every edge is longer than two widths.
-void check_paths(const SupportForest& forest, const LayerPaths& layer, bool long_edges) {
+/// Returns how many paths are printed towards their junction.
+int check_paths(const SupportForest& forest, const LayerPaths& layer, bool long_edges) {
+    int turned = 0;
+    const auto plan = planned(forest);
+    const std::set<std::vector<Point>> outwards(plan.begin(), plan.end());
     const Settings settings;
     const auto width = static_cast<double>(settings.nozzle);
     const Rooted rooted(forest);
@@ -72,12 +88,20 @@ void check_paths(const SupportForest& forest, const LayerPaths& layer, bool long
     double sum = 0;
     std::vector<Segment> printed;
     for (std::size_t i = 0; i < layer.paths.size(); ++i) {
-        const ToolPath& path = layer.paths[i];
+        ToolPath path = layer.paths[i];
         REQUIRE(path.kind == TrackKind::support);
         REQUIRE(path.width == settings.nozzle);
         REQUIRE_FALSE(path.closed);
         REQUIRE(path.points.size() >= 2);
         sum += length(path);
+        // A path may be printed towards its junction; the rest looks at it outwards.
+        const bool inwards = outwards.count(path.points) == 0;
+        if (inwards) {
+            std::reverse(path.points.begin(), path.points.end());
+            REQUIRE(outwards.count(path.points) == 1);
+            ++turned;
+            for (std::size_t k = 1; k < path.points.size(); ++k) CHECK_FALSE(rooted.first_layer[rooted.at.at(path.points[k])]);
+        }
         for (std::size_t k = 1; k < path.points.size(); ++k) {
             REQUIRE(path.points[k] != path.points[k - 1]);
             REQUIRE(rooted.at.count(path.points[k]) == 1);
@@ -127,18 +151,21 @@ void check_paths(const SupportForest& forest, const LayerPaths& layer, bool long
         if (starts_branch && rooted.first_layer[v]) CHECK(printed_by[v] >= 0);
         if (long_edges) CHECK(printed_by[v] >= 0);
     }
+    return turned;
 }
 
 }  // namespace
 
 TEST_CASE("random forests with long edges: order, junctions, gaps, lengths") {
     std::mt19937_64 random(20190501);
+    int turned = 0;
     for (int round = 0; round < 60; ++round) {
         const SupportForest forest = random_forest(random, 1 + round % 5, 5 + round, mm, 5 * mm, 0.2);
         const LayerPaths layer = support_paths(forest);
-        check_paths(forest, layer, true);
+        turned += check_paths(forest, layer, true);
         CHECK(layer.gap_length == layer.gaps * Settings{}.nozzle);
     }
+    CHECK(turned > 100);
 }
 
 TEST_CASE("random forests with edges shorter than the gap: still in contact, nothing lost, nothing twice") {
@@ -149,33 +176,24 @@ TEST_CASE("random forests with edges shorter than the gap: still in contact, not
     }
 }
 
-TEST_CASE("same forest, same paths; what the layer holds already only moves the order of the trees") {
+TEST_CASE("same forest, same paths, however often") {
     std::mt19937_64 random(7);
     const SupportForest forest = random_forest(random, 12, 20, mm / 10, 3 * mm, 0.1);
-    const LayerPaths once = support_paths(forest), again = support_paths(forest);
-    CHECK(points_of(once) == points_of(again));
-    LayerPaths far;
-    far.paths.push_back(
-        {TrackKind::outer_perimeter, 40000, true, {{20 * mm, 20 * mm}, {19 * mm, 20 * mm}, {20 * mm, 19 * mm}}});
-    append_support_paths(forest, Settings{}, far);
-    std::vector<std::vector<Point>> moved = points_of(far), before = points_of(once);
-    CHECK(std::vector(moved.begin() + 1, moved.end()) != before);
-    moved.erase(moved.begin());
-    std::sort(moved.begin(), moved.end());
-    std::sort(before.begin(), before.end());
-    CHECK(moved == before);
-    CHECK(far.gaps == once.gaps);
+    CHECK(points_of(support_paths(forest)) == points_of(support_paths(forest)));
 }
 
 TEST_CASE("a branch stops one track width short of the trunk, on its first layer it reaches the junction") {
     const std::vector<Point> vertices{{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 3 * mm}};
-    const LayerPaths later = support_paths(forest_of(vertices, {{0, 1}, {1, 2}, {1, 3}}));
-    CHECK(points_of(later) ==
+    const SupportForest forest = forest_of(vertices, {{0, 1}, {1, 2}, {1, 3}});
+    const LayerPaths later = support_paths(forest);
+    CHECK(planned(forest) ==
           std::vector<std::vector<Point>>{{{0, 0}, {5 * mm, 0}, {10 * mm, 0}}, {{5 * mm, 40000}, {5 * mm, 3 * mm}}});
     CHECK(later.gaps == 1);
     CHECK(later.gap_length == 40000);
-    const LayerPaths first = support_paths(forest_of(vertices, {{0, 1}, {1, 2}, {1, 3, true}}));
-    CHECK(points_of(first) ==
+    const SupportForest starting = forest_of(vertices, {{0, 1}, {1, 2}, {1, 3, true}});
+    const LayerPaths first = support_paths(starting);
+    CHECK(points_of(first).back() == std::vector<Point>{{5 * mm, 0}, {5 * mm, 3 * mm}});
+    CHECK(planned(starting) ==
           std::vector<std::vector<Point>>{{{0, 0}, {5 * mm, 0}, {10 * mm, 0}}, {{5 * mm, 0}, {5 * mm, 3 * mm}}});
     CHECK(first.gaps == 0);
     CHECK(first.gap_length == 0);
@@ -197,25 +215,25 @@ TEST_CASE("a branch of exactly one width vanishes, a longer one or one on its fi
 }
 
 TEST_CASE("the gap is measured along a bent branch") {
-    const LayerPaths layer = support_paths(forest_of(
+    const auto paths = planned(forest_of(
         {{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 30000}, {6 * mm, 30000}}, {{0, 1}, {1, 2}, {1, 3}, {3, 4}}));
-    REQUIRE(layer.paths.size() == 2);
-    CHECK(layer.paths[1].points == std::vector<Point>{{5 * mm + 10000, 30000}, {6 * mm, 30000}});
+    REQUIRE(paths.size() == 2);
+    CHECK(paths[1] == std::vector<Point>{{5 * mm + 10000, 30000}, {6 * mm, 30000}});
 }
 
 TEST_CASE("a branch from a junction inside a gap starts one width from the nearest printed centre line") {
-    const LayerPaths layer =
-        support_paths(forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 15000}, {5 * mm, 4 * mm}, {6 * mm, 15000}},
-                                {{0, 1}, {1, 2}, {1, 3}, {3, 4}, {3, 5}}));
-    REQUIRE(layer.paths.size() == 3);
-    CHECK(layer.paths[1].points.front() == Point{5 * mm, 40000});
-    CHECK(layer.paths[2].points.front() == Point{5 * mm + 25000, 15000});
-    CHECK(layer.gap_length == 65000);
+    const SupportForest forest = forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 15000}, {5 * mm, 4 * mm}, {6 * mm, 15000}},
+                                           {{0, 1}, {1, 2}, {1, 3}, {3, 4}, {3, 5}});
+    const auto paths = planned(forest);
+    REQUIRE(paths.size() == 3);
+    CHECK(paths[1].front() == Point{5 * mm, 40000});
+    CHECK(paths[2].front() == Point{5 * mm + 25000, 15000});
+    CHECK(support_paths(forest).gap_length == 65000);
 }
 
 TEST_CASE("the trunk takes the longest way; ties go straight, then to the smaller index") {
     const auto trunk = [](const std::vector<Point>& vertices, const std::vector<EdgeOf>& edges) {
-        return support_paths(forest_of(vertices, edges)).paths[0].points.back();
+        return planned(forest_of(vertices, edges))[0].back();
     };
     const Point left{5 * mm, 5 * mm}, right{5 * mm, -5 * mm}, ahead{10 * mm, 0}, far{5 * mm, 6 * mm};
     CHECK(trunk({{0, 0}, {5 * mm, 0}, ahead, far}, {{0, 1}, {1, 2}, {1, 3}}) == far);
@@ -227,15 +245,14 @@ TEST_CASE("the trunk takes the longest way; ties go straight, then to the smalle
 TEST_CASE("a tree with several roots starts at the first and ends at the others") {
     SupportForest forest = forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}}, {{0, 1}, {1, 2}});
     forest[2].root = true;
-    CHECK(points_of(support_paths(forest)) == std::vector<std::vector<Point>>{{{0, 0}, {5 * mm, 0}, {10 * mm, 0}}});
+    CHECK(planned(forest) == std::vector<std::vector<Point>>{{{0, 0}, {5 * mm, 0}, {10 * mm, 0}}});
 }
 
 TEST_CASE("several branches of one root: the first starts at it, the next one width away") {
-    const LayerPaths layer = support_paths(forest_of({{0, 0}, {0, 5 * mm}, {3 * mm, 0}}, {{0, 1}, {0, 2}}));
-    CHECK(points_of(layer) == std::vector<std::vector<Point>>{{{0, 0}, {0, 5 * mm}}, {{40000, 0}, {3 * mm, 0}}});
+    CHECK(planned(forest_of({{0, 0}, {0, 5 * mm}, {3 * mm, 0}}, {{0, 1}, {0, 2}})) == std::vector<std::vector<Point>>{{{0, 0}, {0, 5 * mm}}, {{40000, 0}, {3 * mm, 0}}});
 }
 
-TEST_CASE("trees follow each other by nearest root") {
+TEST_CASE("trees follow each other without going back and forth") {
     SupportForest forest(6);
     for (std::size_t i = 0; i < 6; ++i) {
         const Unit x = std::array<Unit, 6>{9, 9, 1, 1, 4, 4}[i] * mm;
@@ -244,16 +261,65 @@ TEST_CASE("trees follow each other by nearest root") {
     }
     const LayerPaths layer = support_paths(forest);
     REQUIRE(layer.paths.size() == 3);
-    CHECK(layer.paths[0].points.front().x == 1 * mm);
-    CHECK(layer.paths[1].points.front().x == 4 * mm);
-    CHECK(layer.paths[2].points.front().x == 9 * mm);
+    double travel = 0;
+    for (std::size_t i = 1; i < 3; ++i) travel += length(layer.paths[i].points.front() - layer.paths[i - 1].points.back());
+    CHECK(travel == 8 * mm);  // 1, 4, 9 or back, up one tree and down the next
 }
 
 TEST_CASE("an isolated root is a dot, taken in its turn") {
     SupportForest forest = forest_of({{9 * mm, 0}, {5 * mm, 0}, {6 * mm, 0}}, {{1, 2}});
     forest[1].root = true;
-    CHECK(points_of(support_paths(forest)) ==
-          std::vector<std::vector<Point>>{{{5 * mm, 0}, {6 * mm, 0}}, {{9 * mm, 0}}});
+    const LayerPaths layer = support_paths(forest);
+    REQUIRE(layer.paths.size() == 2);
+    CHECK(std::count_if(layer.paths.begin(), layer.paths.end(), [](const ToolPath& p) { return p.points.size() == 1; }) == 1);
+}
+
+namespace {
+
+/// The area of the material of one path that lies in that of another: polygons with 256 corners around every disc, so it is
+/// never smaller than the true area.
+double overlap(const ToolPath& a, const ToolPath& b) {
+    const auto material = [](const ToolPath& path) {
+        Region region;
+        for (const Segment& s : segments(path)) {
+            Contour stadium;
+            const double turn = std::atan2(static_cast<double>(s.b.y - s.a.y), static_cast<double>(s.b.x - s.a.x));
+            const double pi = 3.14159265358979, r = static_cast<double>(path.width) / 2 / std::cos(pi / 256);
+            for (int k = 0; k < 256; ++k) {
+                const double angle = turn + pi / 2 + (k + 0.5) * pi / 128;
+                const Point centre = k < 128 ? s.a : s.b;
+                stadium.push_back(centre + Point{round_to_lattice(r * std::cos(angle)), round_to_lattice(r * std::sin(angle))});
+            }
+            region.push_back(std::move(stadium));
+        }
+        return region;
+    };
+    return signed_area(clip(ClipperLib::ctIntersection, material(a), material(b)));
+}
+
+}  // namespace
+
+TEST_CASE("a branch overlaps its trunk by no more area than stopping one width short of it allows") {
+    const double w = static_cast<double>(Settings{}.nozzle);
+    for (int degrees = 30; degrees <= 150; degrees += 10) {
+        const double angle = degrees * 3.14159265358979 / 180;
+        const Point tip{5 * mm + round_to_lattice(4 * mm * std::cos(angle)), round_to_lattice(4 * mm * std::sin(angle))};
+        const auto paths = [&](bool first_layer) {
+            return support_paths(forest_of({{0, 0}, {5 * mm, 0}, {11 * mm, 0}, tip}, {{0, 1}, {1, 2}, {1, 3, first_layer}})).paths;
+        };
+        const auto later = paths(false), first = paths(true);
+        REQUIRE(later.size() == 2);
+        // Side by side the two leave the junction at this angle: what they share lies between the branch's end, w along it, and
+        // where their sides part, (w / 2) / tan(angle / 2) along it, never wider than w.
+        const double steep = std::min(angle, 3.14159265358979 - angle);
+        const double parting = w / 2 / std::tan(steep / 2);
+        const double allowed = std::max(0.0, parting - w / 2) * w;
+        INFO(degrees << " degrees: " << overlap(later[0], later[1]) / (w * w) << " w2, allowed " << allowed / (w * w));
+        CHECK(overlap(later[0], later[1]) <= allowed + 0.001 * w * w);
+        // On its first layer it reaches the junction, half of its end on the trunk.
+        CHECK(overlap(first[0], first[1]) >= w * w / 2);
+        CHECK(overlap(first[0], first[1]) <= allowed + 2.5 * w * w);
+    }
 }
 
 TEST_CASE("an empty forest has no paths; an edge of no length is no path and no gap") {
@@ -265,7 +331,7 @@ TEST_CASE("an empty forest has no paths; an edge of no length is no path and no 
 }
 
 TEST_CASE("a cycle, a doubled edge and a tree without root are refused with layer and place") {
-    LayerPaths layer;
+    LayerPlan layer;
     layer.layer = 12;
     const auto refused = [&](const SupportForest& forest, const char* what) {
         CHECK_THROWS_WITH(append_support_paths(forest, Settings{}, layer),

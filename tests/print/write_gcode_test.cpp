@@ -8,6 +8,8 @@
 #include "print/geometry.hpp"
 #include "print/random_forest.hpp"
 #include "ribvault/error.hpp"
+#include "ribvault/print/gcode_header.hpp"
+#include "ribvault/print/order_paths.hpp"
 #include "ribvault/print/support_paths.hpp"
 #include "ribvault/print/write_gcode.hpp"
 
@@ -105,6 +107,24 @@ ToolPath path_of(TrackKind kind, std::vector<Point> points, bool closed = false)
     return {kind, 40000, closed, std::move(points)};
 }
 
+/// A layer alone: joined to nothing below, retracted at its end, all travels over open air.
+struct Whole {
+    std::string text;
+    PrintStatistics statistics;
+};
+Whole whole_layer(const LayerPaths& layer, const Settings& settings, const PrinterSettings& printer) {
+    LayerText written = gcode_layer(layer, {}, settings, printer);
+    const std::string joint = gcode_joint(nullptr, written, {}, settings, printer, written.statistics);
+    const std::string end = gcode_end_of_layers(written, printer, written.statistics);
+    return {joint + written.body + end, written.statistics};
+}
+
+void append_forest(const SupportForest& forest, LayerPaths& layer) {
+    LayerPlan plan;
+    append_support_paths(forest, {}, plan);
+    for (ToolPath& path : order_paths(std::move(plan), {}).paths) layer.paths.push_back(std::move(path));
+}
+
 std::vector<Point> points_travelled(const ToolPath& path) {
     std::vector<Point> points = path.points;
     if (path.closed) points.push_back(path.points.front());
@@ -123,9 +143,16 @@ TEST_CASE("what is written reads back as the same paths on the lattice, and E is
                      round);
         const Settings settings;
         const PrinterSettings printer;
-        append_support_paths(random_forest(random, 5, 30, 1, 3 * mm, 0.1), settings, layer);
+        append_forest(random_forest(random, 5, 30, 1, 3 * mm, 0.1), layer);
         layer.paths.insert(layer.paths.begin() + 10, path_of(TrackKind::support, {{-7 * mm, 12345}}));
-        const LayerText written = gcode_layer(layer, settings, printer);
+        // A path that begins where the one before has ended reads as its continuation.
+        for (std::size_t i = layer.paths.size(); i-- > 1;) {
+            ToolPath &path = layer.paths[i], &before = layer.paths[i - 1];
+            if (before.kind != path.kind || before.points.size() < 2 || end_of(before) != path.points.front()) continue;
+            before.points.insert(before.points.end(), path.points.begin() + 1, path.points.end());
+            layer.paths.erase(layer.paths.begin() + static_cast<std::ptrdiff_t>(i));
+        }
+        const Whole written = whole_layer(layer, settings, printer);
         const Parsed read = parse(written.text);
         REQUIRE(read.tracks.size() == layer.paths.size());
         const double filament_per_mm = 0.4 * 0.2 / (std::numbers::pi / 4 * 1.75 * 1.75);
@@ -157,8 +184,8 @@ TEST_CASE("types, widths, heights and statistics by kind") {
     std::vector<ToolPath> paths{path_of(TrackKind::outer_perimeter, {{0, 0}, {3 * mm, 0}, {3 * mm, 4 * mm}}, true),
                                 line(TrackKind::inner_perimeter, mm), line(TrackKind::cover, 2 * mm),
                                 line(TrackKind::support, 3 * mm)};
-    const LayerText first = gcode_layer(layer_of(paths, 0), settings, {}),
-                    sixth = gcode_layer(layer_of(paths, 5), settings, {});
+    const Whole first = whole_layer(layer_of(paths, 0), settings, {}),
+                    sixth = whole_layer(layer_of(paths, 5), settings, {});
     const Parsed read = parse(sixth.text), bottom = parse(first.text);
     REQUIRE(read.tracks.size() == 4);
     CHECK(read.tracks[0].type == "External perimeter");
@@ -184,11 +211,11 @@ TEST_CASE("speeds: supports, the rest, the first layer") {
         return std::vector<ToolPath>{path_of(TrackKind::cover, {{0, 0}, {mm, 0}}),
                                      path_of(TrackKind::support, {{0, mm}, {mm, mm}})};
     };
-    const Parsed upper = parse(gcode_layer(layer_of(paths(), 1), {}, {}).text);
+    const Parsed upper = parse(whole_layer(layer_of(paths(), 1), {}, {}).text);
     REQUIRE(upper.tracks.size() == 2);
     CHECK(upper.tracks[0].feed_rate == 2400);
     CHECK(upper.tracks[1].feed_rate == 3600);
-    const Parsed bottom = parse(gcode_layer(layer_of(paths(), 0), {}, {}).text);
+    const Parsed bottom = parse(whole_layer(layer_of(paths(), 0), {}, {}).text);
     CHECK(bottom.tracks[0].feed_rate == 1200);
     CHECK(bottom.tracks[1].feed_rate == 1200);
 }
@@ -196,34 +223,34 @@ TEST_CASE("speeds: supports, the rest, the first layer") {
 TEST_CASE("a layer begins and ends retracted; only long travels retract between") {
     const auto two = [](Unit apart) {
         return layer_of(
-            {path_of(TrackKind::cover, {{0, 0}, {mm, 0}}), path_of(TrackKind::cover, {{mm + apart, 0}, {9 * mm, 0}})});
+            {path_of(TrackKind::cover, {{0, 0}, {mm, 0}}), path_of(TrackKind::cover, {{mm + apart, 0}, {19 * mm, 0}})});
     };
-    const LayerText near = gcode_layer(two(150000), {}, {}), far = gcode_layer(two(150001), {}, {});
+    const Whole near = whole_layer(two(500000), {}, {}), far = whole_layer(two(500001), {}, {});
     CHECK(parse(near.text).pushes == std::vector<double>{3, -3});
     CHECK(parse(far.text).pushes == std::vector<double>{3, -3, 3, -3});
     CHECK(near.statistics.retractions == 1);
     CHECK(far.statistics.retractions == 2);
-    CHECK(near.statistics.travel == Approx(1.5));
+    CHECK(near.statistics.travel == Approx(5));
     PrinterSettings direct;
     direct.retraction = 0;
-    CHECK(parse(gcode_layer(two(3 * mm), {}, direct).text).pushes.empty());
+    CHECK(parse(whole_layer(two(7 * mm), {}, direct).text).pushes.empty());
 }
 
 TEST_CASE("prime surplus before supports, but not near perimeters and not without a retraction") {
     const ToolPath perimeter =
         path_of(TrackKind::outer_perimeter, {{0, 0}, {20 * mm, 0}, {20 * mm, 20 * mm}, {0, 20 * mm}}, true);
     const auto pushes = [&](std::vector<Point> support, Point then) {
-        return gcode_layer(layer_of({perimeter, path_of(TrackKind::support, support),
+        return whole_layer(layer_of({perimeter, path_of(TrackKind::support, support),
                                      path_of(TrackKind::support, {then, then + Point{mm, mm}})}),
                            {}, {});
     };
-    const LayerText far = pushes({{10 * mm, 10 * mm}, {12 * mm, 10 * mm}}, {12 * mm, 11 * mm});
+    const Whole far = pushes({{10 * mm, 10 * mm}, {12 * mm, 10 * mm}}, {12 * mm, 11 * mm});
     CHECK(parse(far.text).pushes == std::vector<double>{3, -3, 3.15, -3});
     CHECK(far.statistics.prime_surplus == Approx(0.15));
-    const LayerText near = pushes({{19 * mm, 10 * mm}, {12 * mm, 10 * mm}}, {12 * mm, 11 * mm});
+    const Whole near = pushes({{19 * mm, 10 * mm}, {12 * mm, 10 * mm}}, {12 * mm, 11 * mm});
     CHECK(parse(near.text).pushes == std::vector<double>{3, -3, 3, -3});
     CHECK(near.statistics.prime_surplus == 0);
-    const LayerText edge = pushes({{19 * mm - 1, 10 * mm}, {12 * mm, 10 * mm}}, {9 * mm, mm + 1});
+    const Whole edge = pushes({{19 * mm - 1, 10 * mm}, {12 * mm, 10 * mm}}, {9 * mm, mm + 1});
     CHECK(parse(edge.text).pushes == std::vector<double>{3, -3, 3.15, -3, 3.15, -3});
 }
 
@@ -239,14 +266,14 @@ TEST_CASE("whether a surplus is due agrees with the plain distance to all perime
         const Point start{place(random), place(random)};
         layer.paths.push_back(path_of(TrackKind::support, {start, start + Point{mm, 0}}));
     }
-    const Parsed read = parse(gcode_layer(layer, {}, {}).text);
+    const Parsed read = parse(whole_layer(layer, {}, {}).text);
     REQUIRE(read.tracks.size() == layer.paths.size());
     int with = 0, without = 0;
     for (std::size_t i = 1; i < layer.paths.size(); ++i) {
         double nearest = INFINITY;
         for (const Segment& s : segments(layer.paths[0]))
             nearest = std::min(nearest, distance(layer.paths[i].points[0], s));
-        if (length(layer.paths[i].points[0] - end_of(layer.paths[i - 1])) <= 150000) continue;
+        if (length(layer.paths[i].points[0] - end_of(layer.paths[i - 1])) <= 500000) continue;
         CHECK(read.tracks[i].primed == Approx(nearest <= mm ? 0 : 0.15).margin(1e-9));
         ++(nearest <= mm ? without : with);
     }
@@ -257,16 +284,16 @@ TEST_CASE("whether a surplus is due agrees with the plain distance to all perime
 TEST_CASE("a layer's text does not depend on what was written before") {
     std::mt19937_64 random(23);
     LayerPaths a = layer_of({}, 1), b = layer_of({}, 2);
-    append_support_paths(random_forest(random, 3, 20, 1000, mm, 0), {}, a);
-    append_support_paths(random_forest(random, 3, 20, 1000, mm, 0), {}, b);
-    const std::string alone = gcode_layer(b, {}, {}).text;
-    gcode_layer(a, {}, {});
-    CHECK(gcode_layer(b, {}, {}).text == alone);
+    append_forest(random_forest(random, 3, 20, 1000, mm, 0), a);
+    append_forest(random_forest(random, 3, 20, 1000, mm, 0), b);
+    const std::string alone = whole_layer(b, {}, {}).text;
+    whole_layer(a, {}, {});
+    CHECK(whole_layer(b, {}, {}).text == alone);
     CHECK(parse(alone).tracks.front().points.front() == b.paths.front().points.front());
 }
 
 TEST_CASE("an empty layer moves to its height and nothing else") {
-    const LayerText empty = gcode_layer(layer_of({}, 4), {}, {});
+    const Whole empty = whole_layer(layer_of({}, 4), {}, {});
     CHECK(empty.text == ";LAYER_CHANGE\n;LAYER:4\n;Z:1\n;HEIGHT:0.2\nG0 Z1 F9000\n");
     CHECK(empty.statistics.travels == 0);
     CHECK(empty.statistics.retractions == 0);
@@ -274,14 +301,16 @@ TEST_CASE("an empty layer moves to its height and nothing else") {
 
 TEST_CASE("the header heats, homes, sets relative extrusion and leaves the filament retracted") {
     PrinterSettings printer;
-    const std::string header = gcode_header({}, printer, 100);
+    PrintFacts facts;
+    facts.layers = 100;
+    const std::string header = gcode_header({}, {}, printer, facts);
     for (const char* part : {"; generated by ribvault\n", ";LAYER_COUNT:100\n", "M190 S60", "M109 S205", "G28", "G90",
                              "M83", "; layer_height = 0.2\n"})
         CHECK(header.find(part) != std::string::npos);
     CHECK(parse(header).pushes == std::vector<double>{-3});
     printer.bed_temperature = 0;
-    CHECK(gcode_header({}, printer, 1).find("M190") == std::string::npos);
-    CHECK(gcode_footer().find("M104 S0") != std::string::npos);
+    CHECK(gcode_header({}, {}, printer, facts).find("M190") == std::string::npos);
+    CHECK(gcode_footer({}, printer, facts).find("M104 S0") != std::string::npos);
 }
 
 TEST_CASE("printer settings that cannot be are named") {
@@ -289,7 +318,7 @@ TEST_CASE("printer settings that cannot be are named") {
         PrinterSettings printer;
         change(printer);
         try {
-            gcode_header({}, printer, 1);
+            check_printer(printer);
             FAIL("accepted: " << name);
         } catch (const Error& error) {
             CHECK(error.kind() == ErrorKind::usage);
@@ -301,4 +330,62 @@ TEST_CASE("printer settings that cannot be are named") {
     refused([](PrinterSettings& p) { p.travel_speed = NAN; }, "travel speed");
     refused([](PrinterSettings& p) { p.retraction = -1; }, "retraction");
     refused([](PrinterSettings& p) { p.prime_surplus = INFINITY; }, "prime surplus");
+}
+
+TEST_CASE("a travel retracts for open air under it and for leaving the island, not between tracks that touch") {
+    const auto ring = [](Unit lo, Unit hi, bool hole) {
+        Contour c{{lo, lo}, {hi, lo}, {hi, hi}, {lo, hi}};
+        if (hole) std::reverse(c.begin(), c.end());
+        return c;
+    };
+    const Region outline{ring(0, 40 * mm, false)}, cavity{ring(10 * mm, 30 * mm, false)};
+    const auto retractions = [&](Point from, Point to) {
+        const LayerPaths layer = layer_of({path_of(TrackKind::support, {from - Point{0, mm}, from}), path_of(TrackKind::support, {to, to + Point{0, mm}})});
+        return gcode_layer(layer, TravelMap(outline, cavity, layer), {}, {}).statistics.retractions;
+    };
+    CHECK(retractions({2 * mm, 2 * mm}, {2 * mm, 35 * mm}) == 0);           // over the shell, however far
+    CHECK(retractions({9 * mm, 20 * mm}, {15 * mm, 20 * mm}) == 0);         // 5 mm of open air
+    CHECK(retractions({9 * mm, 20 * mm}, {15 * mm + 100, 20 * mm}) == 1);   // more
+    CHECK(retractions({2 * mm, 2 * mm}, {45 * mm, 2 * mm}) == 1);           // out of the slice
+    CHECK(retractions({9 * mm, 20 * mm}, {31 * mm, 20 * mm}) == 1);
+    PrinterSettings eager;
+    eager.retract_over = 0;
+    const auto touching = [&](Unit apart) {
+        const LayerPaths layer = layer_of({path_of(TrackKind::support, {{20 * mm, 15 * mm}, {20 * mm, 20 * mm}}),
+                                           path_of(TrackKind::support, {{20 * mm + apart, 20 * mm}, {25 * mm, 20 * mm}})});
+        return gcode_layer(layer, TravelMap(outline, cavity, layer), {}, eager).statistics.retractions;
+    };
+    CHECK(touching(40000) == 0);
+    CHECK(touching(40001) == 1);
+}
+
+TEST_CASE("layers are joined without a retraction where the way is short or inside, retracted otherwise") {
+    const Region outline{{{0, 0}, {40 * mm, 0}, {40 * mm, 40 * mm}, {0, 40 * mm}}}, cavity{{{mm, mm}, {39 * mm, mm}, {39 * mm, 39 * mm}, {mm, 39 * mm}}};
+    const auto layer_at = [&](int number, Point from, Point to) { return layer_of({path_of(TrackKind::support, {from, to})}, number); };
+    const LayerPaths below = layer_at(4, {5 * mm, 5 * mm}, {20 * mm, 20 * mm});
+    const auto joint = [&](Point start) {
+        const LayerPaths above = layer_at(5, start, {5 * mm, 5 * mm});
+        const TravelMap map(outline, cavity, above);
+        const LayerText lower = gcode_layer(below, TravelMap(outline, cavity, below), {}, {}), upper = gcode_layer(above, map, {}, {});
+        PrintStatistics sum;
+        const std::string text = gcode_joint(&lower, upper, map, {}, {}, sum);
+        CHECK(sum.travels == 1);
+        CHECK(sum.travel == Approx(length(start - Point{20 * mm, 20 * mm}) / mm));
+        CHECK(parse(text).travels == 1);
+        return std::pair(sum.retractions, parse(text).pushes);
+    };
+    CHECK(joint({20 * mm, 23 * mm}) == std::pair(0, std::vector<double>{}));
+    CHECK(joint({20 * mm, 30 * mm}) == std::pair(1, std::vector<double>{-3, 3.15}));
+    CHECK(joint({45 * mm, 20 * mm}).first == 1);
+}
+
+TEST_CASE("skirt and brim are printed before the first layer's tracks and nowhere inside them") {
+    const Region outline{{{0, 0}, {10 * mm, 0}, {10 * mm, 10 * mm}, {0, 10 * mm}}};
+    const LayerPaths layer = layer_of({path_of(TrackKind::outer_perimeter, {{20000, 20000}, {980000, 20000}, {980000, 980000}, {20000, 980000}}, true)}, 0);
+    const std::vector<ToolPath> beside{{TrackKind::skirt, 40000, true, {{-mm, -mm}, {11 * mm, -mm}, {11 * mm, 11 * mm}, {-mm, 11 * mm}}}};
+    const LayerText text = gcode_layer(layer, TravelMap(outline, {}, layer), {}, {}, beside);
+    CHECK(text.body.find(";TYPE:Skirt/Brim") == 0);
+    CHECK(text.body.find(";TYPE:External perimeter") != std::string::npos);
+    CHECK(text.statistics.retractions == 1);
+    CHECK(text.statistics.length[static_cast<std::size_t>(TrackKind::skirt)] == Approx(48));
 }

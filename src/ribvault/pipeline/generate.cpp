@@ -17,6 +17,7 @@
 #include "ribvault/print/gcode_header.hpp"
 #include "ribvault/print/order_paths.hpp"
 #include "ribvault/print/skirt.hpp"
+#include "ribvault/print/thumbnail.hpp"
 #include "ribvault/print/write_gcode.hpp"
 #include "ribvault/report/layer_svg.hpp"
 #include "ribvault/report/write_mesh.hpp"
@@ -48,6 +49,7 @@ public:
         job_.settings.check();
         job_.tracks.check(job_.settings.nozzle);
         check_printer(job_.printer);
+        thumbnail_sizes(job_.printer.thumbnails);
         report_.version = RIBVAULT_VERSION;
         report_.input_path = job_.model.string();
         report_.settings = job_.settings;
@@ -127,7 +129,7 @@ private:
         proof_ += (Time::now() - from).count();
 
         from = Time::now();
-        const LayerPaths paths = order_paths(swept.held.plan, layer.slice->rounded);
+        const LayerPaths paths = order_paths(swept.held.plan, layer.slice->rounded, job_.tracks.alternate);
         output->map = TravelMap(layer.slice->rounded, layer.cavity->region, paths);
         const std::vector<ToolPath> beside = layer.layer == 0 ? skirt_and_brim(layer.slice->rounded, s, job_.tracks) : std::vector<ToolPath>();
         output->text = gcode_layer(paths, output->map, s, job_.printer, beside);
@@ -217,6 +219,21 @@ private:
         paths_ += (Time::now() - from).count();
     }
 
+    std::string thumbnails() const {
+        std::vector<std::array<Corner, 3>> triangles;
+        const Placement& placed = report_.placement;
+        for (Eigen::Index t = 0; t < mesh_.triangles.cols(); ++t) {
+            triangles.emplace_back();
+            for (Eigen::Index c = 0; c < 3; ++c)
+                for (std::size_t k = 0; k < 3; ++k)
+                    triangles.back()[static_cast<std::size_t>(c)][k] = placed.sign[k] * mesh_.vertices(placed.axis[k], mesh_.triangles(c, t));
+        }
+        std::string text;
+        for (const auto& [width, height] : thumbnail_sizes(job_.printer.thumbnails))
+            text += thumbnail_comments(thumbnail_png(triangles, width, height), width, height);
+        return text;
+    }
+
     void write_outputs() {
         sum_up(report_);
         if (report_.totals.shell_volume_mm3 <= 0)
@@ -224,7 +241,7 @@ private:
         const auto from = Time::now();
         if (gcode_) {
             const PrintFacts facts{total_, report_.totals.print_seconds, report_.totals.filament_mm, box_, to_mm(top_of_layer(total_ - 1, job_.settings))};
-            gcode_->write(gcode_header(job_.settings, job_.tracks, job_.printer, facts));
+            gcode_->write(gcode_header(job_.settings, job_.tracks, job_.printer, facts, thumbnails()));
             spool_->replay_backwards([&](std::string_view text) { gcode_->write(text); });
             gcode_->write(end_of_layers_);
             gcode_->write(gcode_footer(job_.settings, job_.printer, facts));

@@ -55,6 +55,11 @@ std::string summary(const RunReport& r, const Job& job) {
     print(text, "material  %.1f mm3: shell and covers %.1f, supports %.1f (%.0f mm of track); %.2f m of filament\n",
           r.totals.material_mm3, r.totals.shell_volume_mm3, r.totals.support_volume_mm3, r.totals.support_printed_length_mm,
           r.totals.filament_mm / 1000);
+    print(text, "print     about %.0f min; %ld travels, %.1f m, %ld retractions\n", r.totals.print_seconds / 60, r.totals.travels,
+          r.totals.travel_mm / 1000, r.totals.retractions);
+    if (r.totals.thin_places > 0)
+        print(text, "warning   %ld places are too narrow for a track and not printed (%.2f mm2 in all); the report says on which layers\n",
+              r.totals.thin_places, r.totals.thin_area_mm2);
     if (r.totals.closings > 0) print(text, "warning   %ld gaps in open contours were closed; the report names them\n", r.totals.closings);
     print(text, "time      %.2f s on %d threads, %.0f MB\n", r.machine.seconds, r.machine.threads, r.machine.peak_memory_mb);
     const std::pair<const char*, const std::optional<std::filesystem::path>&> written[] = {

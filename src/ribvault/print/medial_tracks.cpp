@@ -99,7 +99,7 @@ std::vector<BoostSegment> border_of(const Region& area, Point origin) {
 }
 
 /// The part of the axis inside the area whose distance to the border lies between `least` and `most`.
-Axis axis_of(const std::vector<BoostSegment>& border, double least, double most) {
+Axis axis_of(const std::vector<BoostSegment>& border, double least, double most, double step) {
     Diagram diagram;
     bp::construct_voronoi(border.begin(), border.end(), &diagram);
     Axis axis;
@@ -121,7 +121,17 @@ Axis axis_of(const std::vector<BoostSegment>& border, double least, double most)
             return axis.add({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)}, least);
         };
         const Node na = node(edge.vertex0(), a, ra, b, rb), nb = node(edge.vertex1(), b, rb, a, ra);
-        axis.join(na, nb);
+        // Where the width changes, in steps of at most `step`.
+        const auto pieces = static_cast<std::size_t>(std::ceil(std::max(1.0, 2 * std::fabs(axis.radius[na] - axis.radius[nb]) / step)));
+        Node before = na;
+        for (std::size_t k = 1; k < pieces; ++k) {
+            const double t = static_cast<double>(k) / static_cast<double>(pieces);
+            const auto mix = [t](double from, double to) { return from + t * (to - from); };
+            const Node next = axis.add({mix(axis.at[na].x, axis.at[nb].x), mix(axis.at[na].y, axis.at[nb].y)}, mix(axis.radius[na], axis.radius[nb]));
+            axis.join(before, next);
+            before = next;
+        }
+        axis.join(before, nb);
     }
     return axis;
 }
@@ -145,17 +155,19 @@ double length_of(const Axis& axis, const std::vector<Node>& chain) {
     return sum;
 }
 
-/// Takes away side branches shorter than `limit`.
+/// Takes away side branches shorter than `limit`, at a blunt end both that lead to its corners.
 void prune(Axis& axis, double limit) {
+    std::vector<std::vector<Node>> branches;
     for (Node v = 0; v < axis.at.size(); ++v) {
         if (axis.arcs[v].size() != 1) continue;
-        const std::vector<Node> chain = chain_from(axis, v, 0);
-        if (axis.arcs[chain.back()].size() < 3 || length_of(axis, chain) >= limit) continue;
+        std::vector<Node> chain = chain_from(axis, v, 0);
+        if (axis.arcs[chain.back()].size() >= 3 && length_of(axis, chain) < limit) branches.push_back(std::move(chain));
+    }
+    for (const std::vector<Node>& chain : branches)
         for (std::size_t i = 1; i < chain.size(); ++i) {
             std::erase_if(axis.arcs[chain[i - 1]], [&](const Axis::Arc& a) { return a.to == chain[i]; });
             std::erase_if(axis.arcs[chain[i]], [&](const Axis::Arc& a) { return a.to == chain[i - 1]; });
         }
-    }
 }
 
 }  // namespace
@@ -165,7 +177,7 @@ std::vector<PlannedTrack> medial_tracks(const Region& area, Unit width, TrackKin
     if (area.empty()) return tracks;
     const Point origin = bounding_box(area).lo;
     const double d = static_cast<double>(width);
-    Axis axis = axis_of(border_of(area, origin), d / 4, 3 * d / 4);
+    Axis axis = axis_of(border_of(area, origin), d / 4, 3 * d / 4, d / 20);
     prune(axis, d);
 
     const auto emit = [&](const std::vector<Node>& chain) {

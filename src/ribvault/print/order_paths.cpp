@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <optional>
 
 #include "ribvault/print/islands.hpp"
 
 namespace ribvault {
 namespace {
 
-constexpr std::size_t stages = 4;
+constexpr std::size_t stages = 2;
 using Tracks = std::vector<std::size_t>;
 
 /// The tracks of one island by stage.
@@ -18,10 +20,25 @@ struct IslandTracks {
     bool empty = true;
 };
 
-bool more_to_the_rear(Point a, Point b) { return a.y != b.y ? a.y > b.y : a.x < b.x; }
+bool more_to_the_rear(Point a, Point b) { return 5 * a.y - 2 * a.x > 5 * b.y - 2 * b.x; }
 
 Point first_point(const PlannedTrack& track) { return track.paths.front().points.front(); }
 Point last_point(const PlannedTrack& track) { return end_of(track.paths.back()); }
+
+/// Where perimeters that may be entered anywhere come nearest to what is printed inside them; nothing when they may not.
+std::optional<Point> free_seam(const LayerPlan& plan, const IslandTracks& island) {
+    std::optional<Point> seam;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t t : island.of[0]) {
+        const PlannedTrack& perimeter = plan.tracks[t];
+        if (perimeter.entry != Entry::anywhere || perimeter.after != no_stop) continue;
+        for (Point p : perimeter.paths.front().points)
+            for (std::size_t inside : island.of[1])
+                for (const Point q : {first_point(plan.tracks[inside]), last_point(plan.tracks[inside])})
+                    if (const double d = length(p - q); d < nearest) nearest = d, seam = p;
+    }
+    return seam;
+}
 
 std::vector<IslandTracks> sort_by_island(const LayerPlan& plan, const Region& outline) {
     const Islands islands(outline);
@@ -34,6 +51,10 @@ std::vector<IslandTracks> sort_by_island(const LayerPlan& plan, const Region& ou
     }
     std::erase_if(all, [](const IslandTracks& island) { return island.empty; });
     for (IslandTracks& island : all) {
+        if (std::optional<Point> seam = free_seam(plan, island)) {
+            island.anchor = *seam;
+            continue;
+        }
         const auto first = std::find_if(island.of.begin(), island.of.end(), [](const Tracks& tracks) { return !tracks.empty(); });
         island.anchor = first_point(plan.tracks[first->front()]);
         for (std::size_t t : *first)
@@ -66,9 +87,9 @@ void append(PlannedTrack& track, std::size_t way, LayerPaths& layer) {
     for (ToolPath& path : track.paths) layer.paths.push_back(std::move(path));
 }
 
-/// Prints the tracks of one stage; returns where the nozzle stands then.
-Point append_stage(LayerPlan& plan, const Tracks& tracks, Point from, std::optional<Point> to, std::vector<std::size_t>& number,
-                   LayerPaths& layer) {
+/// A short way through the tracks of one stage.
+std::vector<Visit> tour_of(const LayerPlan& plan, const Tracks& tracks, Point from, std::optional<Point> to) {
+    std::vector<std::size_t> number(tracks.empty() ? 0 : 1 + *std::max_element(tracks.begin(), tracks.end()));
     for (std::size_t k = 0; k < tracks.size(); ++k) number[tracks[k]] = k;
     std::vector<TourStop> stops;
     for (std::size_t t : tracks) {
@@ -76,25 +97,32 @@ Point append_stage(LayerPlan& plan, const Tracks& tracks, Point from, std::optio
         stops.push_back({track.entry, first_point(track), last_point(track), &track.paths.front().points,
                          track.after == no_stop ? no_stop : number[track.after]});
     }
-    for (const Visit& v : short_tour(stops, from, to)) append(plan.tracks[tracks[v.stop]], v.way, layer);
+    return short_tour(stops, from, to);
+}
+
+/// Prints the tracks of one stage; returns where the nozzle stands then.
+Point append_stage(LayerPlan& plan, const Tracks& tracks, Point from, std::optional<Point> to, LayerPaths& layer) {
+    for (const Visit& v : tour_of(plan, tracks, from, to)) append(plan.tracks[tracks[v.stop]], v.way, layer);
     return layer.paths.empty() ? from : end_of(layer.paths.back());
+}
+
+/// Where an island that is printed perimeters first, from its anchor, is left; the layer above, which is printed the other way
+/// round, starts there.
+Point far_end(const LayerPlan& plan, const IslandTracks& island) {
+    const std::vector<Visit> tour = tour_of(plan, island.of[1], island.anchor, std::nullopt);
+    if (tour.empty()) return island.anchor;
+    const PlannedTrack& last = plan.tracks[island.of[1][tour.back().stop]];
+    if (last.entry == Entry::anywhere) return last.paths.front().points[tour.back().way];
+    return tour.back().way == 0 ? last_point(last) : first_point(last);
 }
 
 }  // namespace
 
 PrintStage stage_of(TrackKind kind) {
-    switch (kind) {
-        case TrackKind::outer_perimeter:
-        case TrackKind::inner_perimeter: return PrintStage::perimeters;
-        case TrackKind::thin_wall: return PrintStage::thin_walls;
-        case TrackKind::cover: return PrintStage::covers;
-        case TrackKind::skirt:
-        case TrackKind::support: break;
-    }
-    return PrintStage::supports;
+    return kind == TrackKind::outer_perimeter || kind == TrackKind::inner_perimeter ? PrintStage::perimeters : PrintStage::inside;
 }
 
-LayerPaths order_paths(LayerPlan plan, const Region& outline) {
+LayerPaths order_paths(LayerPlan plan, const Region& outline, bool alternate) {
     LayerPaths layer;
     layer.layer = plan.layer;
     layer.gaps = plan.gaps, layer.gap_length = plan.gap_length;
@@ -102,16 +130,22 @@ LayerPaths order_paths(LayerPlan plan, const Region& outline) {
     if (plan.tracks.empty()) return layer;
 
     const std::vector<IslandTracks> islands = sort_by_island(plan, outline);
-    const std::vector<std::size_t> order = order_of_islands(islands, plan.layer % 2 != 0);
-    std::vector<std::size_t> number(plan.tracks.size());
-    Point here = islands[order.front()].anchor;
+    const bool backwards = plan.layer % 2 != 0, shell_last = backwards && alternate;
+    const std::vector<std::size_t> order = order_of_islands(islands, backwards);
+    const auto entry = [&](const IslandTracks& island) { return shell_last ? far_end(plan, island) : island.anchor; };
+    Point here = entry(islands[order.front()]);
     for (std::size_t i = 0; i < order.size(); ++i) {
         const IslandTracks& island = islands[order[i]];
-        const Point next = i + 1 < order.size() ? islands[order[i + 1]].anchor : island.anchor;
-        std::size_t last = stages - 1;
-        while (island.of[last].empty()) --last;
-        for (std::size_t stage = 0; stage <= last; ++stage)
-            here = append_stage(plan, island.of[stage], here, stage == last ? std::optional(next) : std::nullopt, number, layer);
+        std::optional<Point> next;
+        if (i + 1 < order.size()) next = entry(islands[order[i + 1]]);
+        if (shell_last) {
+            here = append_stage(plan, island.of[1], here, island.of[0].empty() ? next : island.anchor, layer);
+            here = append_stage(plan, island.of[0], here, next, layer);
+        } else {
+            if (!next && !alternate) next = island.anchor;
+            here = append_stage(plan, island.of[0], here, island.of[1].empty() ? next : std::nullopt, layer);
+            here = append_stage(plan, island.of[1], here, next, layer);
+        }
     }
     return layer;
 }

@@ -27,7 +27,12 @@ double distance(Point p, const Contour& ring) {
     return nearest;
 }
 
-bool more_to_the_rear(Point a, Point b) { return a.y != b.y ? a.y > b.y : a.x < b.x; }
+/// The rear, a little to the left: on a flat back, which is seldom quite parallel to the bed's edge, the rearmost point would
+/// jump from one corner to the other between layers.
+bool more_to_the_rear(Point a, Point b) {
+    const Unit far_a = 5 * a.y - 2 * a.x, far_b = 5 * b.y - 2 * b.x;
+    return far_a != far_b ? far_a > far_b : a < b;
+}
 
 /// How far the contour turns at vertex i, in steps of 10 degrees, so that corners alike from layer to layer compare equal.
 int turn_at(const Contour& ring, std::size_t i) {

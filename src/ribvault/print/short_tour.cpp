@@ -28,7 +28,8 @@ public:
             bool better = false;
             for (std::size_t s = 0; s < stops_.size(); ++s) {
                 better |= change_way(position_[s]);
-                for (std::size_t other : near_[s]) better |= reverse_between(s, other) || move_run(s, other);
+                better |= move_run(s);
+                for (std::size_t other : near_[s]) better |= reverse_between(s, other);
             }
             if (!better) break;
         }
@@ -162,27 +163,36 @@ private:
         number(begin, end);
     }
 
-    /// Moves a run that begins or ends with stop s before or after stop t.
-    bool move_run(std::size_t s, std::size_t t) {
+    /// Moves a run that begins or ends with stop s before or after one of its neighbours.
+    bool move_run(std::size_t s) {
         for (Index count = 1; count <= static_cast<Index>(longest_run); ++count)
-            for (const Index begin : {position(s), position(s) - count + 1})
-                for (const Index place : {position(t) - 1, position(t)}) {
-                    if (move(begin, begin + count, place, false) || move(begin, begin + count, place, true)) return true;
-                }
+            for (const Index begin : {position(s), position(s) - count + 1}) {
+                const Index end = begin + count;
+                if (begin < 0 || end > size()) continue;
+                const double saved = distance(left_at(begin - 1), in(at(begin))) + to_position(out(at(end - 1)), end) -
+                                     to_position(left_at(begin - 1), end);
+                if (saved <= 1) continue;
+                for (std::size_t t : near_[s])
+                    for (const Index place : {position(t) - 1, position(t)})
+                        for (const bool turn : {false, true})
+                            if (move(begin, end, place, turn, saved)) return true;
+                if (count == 1) break;
+            }
         return false;
     }
 
-    /// Moves positions begin .. end - 1 to behind position `place`.
-    bool move(Index begin, Index end, Index place, bool turn) {
-        if (begin < 0 || end > size() || (place >= begin - 1 && place < end)) return false;
+    /// Moves positions begin .. end - 1, whose absence saves so much, to behind position `place`.
+    bool move(Index begin, Index end, Index place, bool turn, double saved) {
+        if (place >= begin - 1 && place < end) return false;
+        const Point from = left_at(place);
+        const Visit first = turn ? turned(at(end - 1)) : at(begin), last = turn ? turned(at(begin)) : at(end - 1);
+        const double there = distance(from, in(first));
+        const double between = to_position(from, place + 1);
+        if (there - between >= saved - 1) return false;
+        if (there + to_position(out(last), place + 1) - between >= saved - 1) return false;
         if (turn)
             for (Index k = begin; k < end; ++k)
                 if (!can_turn(at(k))) return false;
-        const Visit first = turn ? turned(at(end - 1)) : at(begin), last = turn ? turned(at(begin)) : at(end - 1);
-        const double gain = distance(left_at(begin - 1), in(at(begin))) + to_position(out(at(end - 1)), end) -
-                            to_position(left_at(begin - 1), end) + to_position(left_at(place), place + 1) -
-                            distance(left_at(place), in(first)) - to_position(out(last), place + 1);
-        if (gain <= 1) return false;
         const auto after = [&](Index k) { return stops_[at(k).stop].after; };
         if (turn)
             for (Index k = begin; k < end; ++k)

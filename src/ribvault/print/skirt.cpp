@@ -34,7 +34,7 @@ Contour hull_of(const Region& region) {
 }
 
 void append_loops(const Region& around, double distance, Unit width, std::vector<ToolPath>& paths) {
-    for (Contour& loop : offset(around, distance, ClipperLib::jtRound, 1000))
+    for (Contour& loop : offset(around, distance, ClipperLib::jtRound, 250))
         if (signed_area({loop}) > 0) paths.push_back({TrackKind::skirt, width, true, std::move(loop)});
 }
 

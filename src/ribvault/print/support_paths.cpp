@@ -171,7 +171,8 @@ void append_tree(RootedForest& f, Vertex root, LayerPlan& plan) {
         for (std::size_t i = 1; i < vertices.size(); ++i) f.printed_by[vertices[i]] = own;
         if (!printed) continue;
         if (above == no_stop) f.printed_by[branch.junction] = own;
-        const Entry entry = first_layer ? Entry::fixed : Entry::either_end;
+        const bool lies_on_walls = std::none_of(vertices.begin() + 1, vertices.end(), [&](Vertex v) { return f.first_layer[v]; });
+        const Entry entry = lies_on_walls ? Entry::either_end : Entry::fixed;
         plan.tracks.push_back({{{TrackKind::support, f.width, false, std::move(points)}}, entry, above});
     }
 }

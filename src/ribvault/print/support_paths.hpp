@@ -11,8 +11,8 @@ namespace ribvault {
 /// the path goes on into the subtree that reaches farthest along its edges; ties prefer the straighter continuation,
 /// then the smaller vertex index. What it leaves aside becomes a track of its own, `after` the path that runs through the
 /// junction (after the nearest printed path above it, when that is too short to be printed). A track may be printed from
-/// its other end, except on its first layer: then it begins at the junction, where it sticks, because below it there is
-/// nothing. A dot (isolated vertex) becomes a path of one point.
+/// its other end, except when part of it is on its first layer: then it begins at the junction, where it sticks, because
+/// below its other end there is nothing. A dot (isolated vertex) becomes a path of one point.
 ///
 /// Only the first path runs through a junction. A later branch starts one track width (`settings.nozzle`) short of it,
 /// measured along the branch, unless its first edge has first_layer or to_junction set: then it starts at the junction. A branch that

@@ -37,7 +37,8 @@ inline double length(const ToolPath& path) {
     return sum;
 }
 
-/// The tracks of layer i in printing order: island by island perimeters, thin walls, covers, supports (Section 4.4).
+/// The tracks of layer i in printing order: island by island perimeters, then what they enclose
+/// (print/order_paths.hpp).
 struct LayerPaths {
     int layer = 0;
     std::vector<ToolPath> paths;

@@ -13,7 +13,7 @@ enum class CoverPattern {
 
 /// Where a closed outer perimeter begins and ends.
 enum class Seam {
-    aligned,  ///< at its rearmost point, so that the seams of the layers lie above each other
+    aligned,  ///< at its rear, a little to the left (the point with the largest 5 y - 2 x), so that the seams of the layers lie above each other
     corner,   ///< at its sharpest corner (the rearmost of those alike), where it shows least
     nearest   ///< where the nozzle travels least
 };
@@ -21,6 +21,7 @@ enum class Seam {
 /// Lengths in lattice units.
 struct TrackSettings {
     bool inner_first = false;        ///< perimeters from the inside out
+    bool alternate = true;           ///< odd layers print their perimeters last: less travel between layers
     CoverPattern covers = CoverPattern::zigzag;
     Seam seam = Seam::aligned;
     bool thin_walls = true;          ///< a track of its own width where the slice is narrower than one track

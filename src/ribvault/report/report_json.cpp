@@ -66,6 +66,7 @@ Json tracks(const TrackSettings& t, const Settings& s) {
     static constexpr const char* patterns[] = {"zigzag", "monotonic", "concentric"};
     static constexpr const char* seams[] = {"aligned", "corner", "nearest"};
     return {{"inner_first", t.inner_first},
+            {"alternate", t.alternate},
             {"covers", patterns[static_cast<std::size_t>(t.covers)]},
             {"seam", seams[static_cast<std::size_t>(t.seam)]},
             {"thin_walls", t.thin_walls},

@@ -1,0 +1,94 @@
+#include "cli/printer_options.hpp"
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "ribvault/error.hpp"
+#include "ribvault/print/import_prusaslicer.hpp"
+#include "ribvault/print/printer_profile.hpp"
+
+namespace ribvault::cli {
+namespace {
+
+std::string text_of(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    if (!in) throw Error(ErrorKind::unreadable, file + ": cannot be read");
+    return text.str();
+}
+
+void import(const std::string& file, Job& job, std::optional<Unit>& first_layer_height) {
+    Settings& s = job.settings;
+    s.first_layer_height = 0;
+    const ImportedConfig imported = import_prusaslicer(text_of(file), file, s, job.tracks, job.printer);
+    if (s.first_layer_height > 0) first_layer_height = s.first_layer_height;
+    std::string list;
+    for (const std::string& key : imported.ignored) (list += list.empty() ? "" : ", ") += key;
+    std::fprintf(stderr, "%s: %zu settings taken, %zu ignored%s%s\n", file.c_str(), imported.taken.size(), imported.ignored.size(),
+                 list.empty() ? "" : ": ", list.c_str());
+}
+
+template <class Target>
+void add_length(CLI::App* command, const std::string& name, Target& target, const std::string& help) {
+    command->add_option_function<std::string>(
+        name, [&target, name](const std::string& text) { target = parse_length(text, name); }, help)->type_name("MM");
+}
+
+}  // namespace
+
+void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_height) {
+    std::string names;
+    for (const BuiltinProfile& profile : builtin_profiles()) (names += names.empty() ? "" : ", ") += profile.name;
+    const auto printer = command->add_option_function<std::string>(
+        "--printer", [&job](const std::string& name) { job.printer = builtin_profile(name); }, "a built-in profile: " + names)->type_name("NAME");
+    const auto profile = command->add_option_function<std::string>(
+        "--profile", [&job](const std::string& file) { job.printer = read_profile(text_of(file), file); },
+        "a printer profile (docs/printing.md)")->type_name("FILE")->excludes(printer);
+    command->add_option_function<std::string>(
+        "--import", [&job, &first_layer_height](const std::string& file) { import(file, job, first_layer_height); },
+        "a PrusaSlicer config or bundle (.ini)")->type_name("FILE")->excludes(printer)->excludes(profile);
+}
+
+void add_tracks(CLI::App* command, TrackSettings& t) {
+    const auto group = command->add_option_group("Shell and covers");
+    group->add_flag("--inner-first", t.inner_first, "perimeters from the inside out");
+    group->add_flag_callback("--shell-first", [&t] { t.alternate = false; },
+                             "perimeters first on every layer; by default last on odd ones, which saves travel");
+    group->add_option("--covers", t.covers, "zigzag, monotonic or concentric (default zigzag)")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, CoverPattern>{
+            {"zigzag", CoverPattern::zigzag}, {"monotonic", CoverPattern::monotonic}, {"concentric", CoverPattern::concentric}}))->type_name("HOW");
+    group->add_option("--seam", t.seam, "where outer perimeters begin: aligned, corner or nearest (default aligned)")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, Seam>{{"aligned", Seam::aligned}, {"corner", Seam::corner}, {"nearest", Seam::nearest}}))->type_name("WHERE");
+    group->add_flag_callback("--no-thin-walls", [&t] { t.thin_walls = false; }, "no tracks where the slice is narrower than one");
+    add_length(group, "--first-layer-width", t.first_layer_width, "of perimeters and covers on layer 0 (default: the nozzle)");
+    group->add_option("--skirt", t.skirt_loops, "loops around the first layer (default 0)");
+    add_length(group, "--skirt-distance", t.skirt_distance, "from the object to the skirt (default 3)");
+    add_length(group, "--brim", t.brim_width, "width of the brim on the first layer (default 0)");
+}
+
+void add_printer(CLI::App* command, PrinterSettings& p) {
+    const auto group = command->add_option_group("Printer");
+    group->add_option("--flavour", p.flavour, "marlin, klipper or reprapfirmware (default marlin)")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, Flavour>{
+            {"marlin", Flavour::marlin}, {"klipper", Flavour::klipper}, {"reprapfirmware", Flavour::reprapfirmware}}))->type_name("WHOSE");
+    group->add_option("--filament-diameter", p.filament_diameter, "mm")->capture_default_str();
+    group->add_option("--temperature", p.nozzle_temperature, "nozzle, degrees C")->capture_default_str();
+    group->add_option("--bed-temperature", p.bed_temperature, "degrees C")->capture_default_str();
+    group->add_option("--fan", p.fan_percent, "from the second layer on, percent")->capture_default_str();
+    group->add_option("--print-speed", p.print_speed, "perimeters and covers, mm/s")->capture_default_str();
+    group->add_option("--support-speed", p.support_speed, "supports, mm/s")->capture_default_str();
+    group->add_option("--first-layer-speed", p.first_layer_speed, "mm/s")->capture_default_str();
+    group->add_option("--travel-speed", p.travel_speed, "mm/s")->capture_default_str();
+    group->add_option("--retraction", p.retraction, "mm of filament")->capture_default_str();
+    group->add_option("--retraction-speed", p.retraction_speed, "mm/s")->capture_default_str();
+    group->add_option("--retract-over", p.retract_over, "mm of open air under a travel from which it retracts")->capture_default_str();
+    group->add_option("--longest-detour", p.longest_detour, "mm that a travel may be longer to stay inside the shell")->capture_default_str();
+    group->add_option("--prime-surplus", p.prime_surplus, "share of the retraction added before support paths")->capture_default_str();
+    group->add_option("--surplus-clearance", p.surplus_clearance, "mm from a perimeter within which it is not")->capture_default_str();
+    group->add_option("--thumbnails", p.thumbnails, "pictures in the G-code, WxH[,WxH]; none: no picture")->capture_default_str();
+}
+
+}  // namespace ribvault::cli

@@ -1,0 +1,241 @@
+#include "ribvault/print/import_prusaslicer.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "ribvault/error.hpp"
+#include "ribvault/exact/rational.hpp"
+#include "ribvault/print/gcode_header.hpp"
+#include "ribvault/print/ini.hpp"
+
+namespace ribvault {
+namespace {
+
+/// The value cannot be taken, for this reason.
+struct Ignored {
+    std::string why;
+};
+
+/// PrusaSlicer writes one value per extruder; the first counts.
+std::string first_of(const std::string& list) {
+    std::string first = list.substr(0, list.find_first_of(",;"));
+    first.erase(first.find_last_not_of(' ') + 1);
+    return first;
+}
+
+double number(const std::string& list) {
+    const std::string text = first_of(list);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || text.empty()) throw Error(ErrorKind::usage, "'" + text + "' is not a number");
+    if (*end == '%') throw Ignored{"a percentage"};
+    if (end != text.data() + text.size()) throw Error(ErrorKind::usage, "'" + text + "' is not a number");
+    return value;
+}
+
+Unit length_in(const std::string& list) {
+    const std::string text = first_of(list);
+    if (text.find('%') != std::string::npos) throw Ignored{"a percentage"};
+    return parse_length(text, "");
+}
+
+void take_bed(PrinterSettings& printer, const std::string& shape) {
+    double lo_x = INFINITY, lo_y = INFINITY, hi_x = -INFINITY, hi_y = -INFINITY;
+    std::istringstream corners(shape);
+    std::string corner;
+    int count = 0;
+    for (; std::getline(corners, corner, ','); ++count) {
+        const std::size_t x = corner.find('x');
+        if (x == std::string::npos) throw Error(ErrorKind::usage, "'" + corner + "' is no corner");
+        const double px = number(corner.substr(0, x)), py = number(corner.substr(x + 1));
+        lo_x = std::min(lo_x, px), hi_x = std::max(hi_x, px), lo_y = std::min(lo_y, py), hi_y = std::max(hi_y, py);
+    }
+    const bool centred = lo_x < 0 && std::fabs(lo_x + hi_x) < 0.01 * hi_x && std::fabs(lo_y + hi_y) < 0.01 * hi_y;
+    if (!centred && (lo_x != 0 || lo_y != 0)) throw Ignored{"its corner is not at the origin"};
+    printer.bed_x = hi_x - lo_x, printer.bed_y = hi_y - lo_y;
+    printer.origin_at_centre = centred, printer.round_bed = count > 8;
+}
+
+/// PrusaSlicer's placeholders as ours; nothing when the text uses others, or expressions.
+std::optional<std::string> translated(std::string text) {
+    static const std::vector<std::pair<const char*, const char*>> names{
+        {"first_layer_temperature", "nozzle_temperature"}, {"first_layer_bed_temperature", "bed_temperature"},
+        {"temperature", "nozzle_temperature"}, {"bed_temperature", "bed_temperature"}, {"layer_height", "layer_height"},
+        {"first_layer_height", "first_layer_height"}, {"nozzle_diameter", "nozzle_diameter"}, {"filament_diameter", "filament_diameter"},
+        {"retract_length", "retraction"}, {"max_print_height", "bed_z"}, {"travel_speed", "travel_speed"}, {"total_layer_count", "layer_count"}};
+    for (const auto& [theirs, ours] : names)
+        for (const char* index : {"", "[0]", "_0", "[initial_extruder]", "[initial_tool]"})
+            for (const auto& [open, close] : {std::pair("[", "]"), std::pair("{", "}")}) {
+                const std::string from = std::string(open) + theirs + index + close, to = std::string("\x01") + ours + "\x02";
+                for (std::size_t at; (at = text.find(from)) != std::string::npos;) text.replace(at, from.size(), to);
+            }
+    if (text.find_first_of("[]{}") != std::string::npos) return std::nullopt;
+    std::replace(text.begin(), text.end(), '\x01', '{');
+    std::replace(text.begin(), text.end(), '\x02', '}');
+    return text;
+}
+
+void take_gcode(std::string& target, const std::string& value) {
+    std::optional<std::string> text = translated(unescaped(value));
+    if (!text) throw Ignored{"it has placeholders or expressions that we do not know"};
+    target = *text;
+}
+
+struct Target {
+    Settings& s;
+    TrackSettings& t;
+    PrinterSettings& p;
+};
+using Field = std::function<void(Target, const std::string&)>;
+
+Field printer_number(double PrinterSettings::*member) {
+    return [member](Target to, const std::string& v) { to.p.*member = number(v); };
+}
+Field temperature(int PrinterSettings::*member) {
+    return [member](Target to, const std::string& v) { to.p.*member = static_cast<int>(std::lround(number(v))); };
+}
+Field count(int Settings::*member) {
+    return [member](Target to, const std::string& v) { to.s.*member = static_cast<int>(std::lround(number(v))); };
+}
+
+const std::map<std::string, Field>& fields() {
+    using P = PrinterSettings;
+    static const std::map<std::string, Field> all = [] {
+        std::map<std::string, Field> f{
+            {"layer_height", [](Target to, const std::string& v) { to.s.layer_height = length_in(v); }},
+            {"first_layer_height", [](Target to, const std::string& v) { to.s.first_layer_height = length_in(v); }},
+            {"nozzle_diameter", [](Target to, const std::string& v) { to.s.nozzle = length_in(v); }},
+            {"perimeters", count(&Settings::perimeters)},
+            {"top_solid_layers", count(&Settings::top_layers)},
+            {"bottom_solid_layers", count(&Settings::bottom_layers)},
+            {"external_perimeters_first", [](Target to, const std::string& v) { to.t.inner_first = number(v) == 0; }},
+            {"thin_walls", [](Target to, const std::string& v) { to.t.thin_walls = number(v) != 0; }},
+            {"skirts", [](Target to, const std::string& v) { to.t.skirt_loops = static_cast<int>(number(v)); }},
+            {"skirt_distance", [](Target to, const std::string& v) { to.t.skirt_distance = length_in(v); }},
+            {"brim_width", [](Target to, const std::string& v) { to.t.brim_width = length_in(v); }},
+            {"first_layer_extrusion_width",
+             [](Target to, const std::string& v) {
+                 const Unit width = length_in(v);
+                 if (width != 0 && width < to.s.nozzle) throw Ignored{"narrower than the nozzle"};
+                 to.t.first_layer_width = width;
+             }},
+            {"seam_position",
+             [](Target to, const std::string& v) {
+                 if (v == "aligned" || v == "rear") to.t.seam = Seam::aligned;
+                 else if (v == "nearest") to.t.seam = Seam::nearest;
+                 else throw Ignored{"seams are aligned, at a corner or nearest here"};
+             }},
+            {"top_fill_pattern",
+             [](Target to, const std::string& v) {
+                 if (v == "rectilinear" || v == "alignedrectilinear") to.t.covers = CoverPattern::zigzag;
+                 else if (v == "monotonic" || v == "monotoniclines") to.t.covers = CoverPattern::monotonic;
+                 else if (v == "concentric") to.t.covers = CoverPattern::concentric;
+                 else throw Ignored{"covers are rectilinear, monotonic or concentric here"};
+             }},
+            {"bed_shape", [](Target to, const std::string& v) { take_bed(to.p, v); }},
+            {"max_print_height", printer_number(&P::bed_z)},
+            {"gcode_flavor",
+             [](Target to, const std::string& v) {
+                 if (v == "marlin" || v == "marlin2" || v == "reprap") to.p.flavour = Flavour::marlin;
+                 else if (v == "klipper") to.p.flavour = Flavour::klipper;
+                 else if (v == "reprapfirmware") to.p.flavour = Flavour::reprapfirmware;
+                 else throw Ignored{"we write for Marlin, Klipper and RepRapFirmware"};
+             }},
+            {"filament_diameter", printer_number(&P::filament_diameter)},
+            {"temperature", temperature(&P::nozzle_temperature)},
+            {"bed_temperature", temperature(&P::bed_temperature)},
+            {"max_fan_speed", printer_number(&P::fan_percent)},
+            {"perimeter_speed", printer_number(&P::print_speed)},
+            {"infill_speed", printer_number(&P::support_speed)},
+            {"first_layer_speed", printer_number(&P::first_layer_speed)},
+            {"travel_speed", printer_number(&P::travel_speed)},
+            {"retract_length", printer_number(&P::retraction)},
+            {"retract_speed", printer_number(&P::retraction_speed)},
+            {"thumbnails", [](Target to, const std::string& v) { to.p.thumbnails = v; }},
+            {"start_gcode", [](Target to, const std::string& v) { take_gcode(to.p.start_gcode, v); }},
+            {"end_gcode", [](Target to, const std::string& v) { take_gcode(to.p.end_gcode, v); }},
+            {"machine_limits_usage", [](Target to, const std::string& v) { to.p.write_limits = v == "emit_to_gcode"; }},
+            {"machine_max_acceleration_extruding", [](Target to, const std::string& v) { to.p.limits.print_acceleration = number(v); }},
+            {"machine_max_acceleration_retracting", [](Target to, const std::string& v) { to.p.limits.retract_acceleration = number(v); }},
+            {"machine_max_acceleration_travel", [](Target to, const std::string& v) { to.p.limits.travel_acceleration = number(v); }}};
+        for (std::size_t a = 0; a < 4; ++a) {
+            const std::string axis(1, "xyze"[a]);
+            f["machine_max_feedrate_" + axis] = [a](Target to, const std::string& v) { to.p.limits.speed[a] = number(v); };
+            f["machine_max_acceleration_" + axis] = [a](Target to, const std::string& v) { to.p.limits.acceleration[a] = number(v); };
+            f["machine_max_jerk_" + axis] = [a](Target to, const std::string& v) { to.p.limits.jerk[a] = number(v); };
+        }
+        return f;
+    }();
+    return all;
+}
+
+/// The entries of a section after those it inherits.
+void append_inherited(const std::vector<IniEntry>& all, const std::string& section, std::set<std::string>& visited, std::vector<IniEntry>& chosen) {
+    if (!visited.insert(section).second) return;
+    const std::string kind = section.substr(0, section.find(':') + 1);
+    for (const IniEntry& e : all) {
+        if (e.section != section || e.key != "inherits") continue;
+        std::istringstream parents(e.value);
+        for (std::string parent; std::getline(parents, parent, ';');) {
+            parent.erase(0, parent.find_first_not_of(' '));
+            parent.erase(parent.find_last_not_of(' ') + 1);
+            if (!parent.empty()) append_inherited(all, kind + parent, visited, chosen);
+        }
+    }
+    for (const IniEntry& e : all)
+        if (e.section == section && e.key != "inherits") chosen.push_back(e);
+}
+
+std::vector<IniEntry> chosen_entries(const std::vector<IniEntry>& all) {
+    std::vector<IniEntry> chosen;
+    for (const IniEntry& e : all)
+        if (e.section.empty()) chosen.push_back(e);
+    for (const std::string kind : {"printer", "filament", "print"}) {
+        std::string section;
+        for (const IniEntry& e : all)
+            if (e.section.rfind(kind + ":", 0) == 0 && e.section.find('*') == std::string::npos) section = e.section;
+        for (const IniEntry& e : all)
+            if (e.section == "presets" && e.key == kind && !e.value.empty()) section = kind + ":" + e.value;
+        std::set<std::string> visited;
+        if (!section.empty()) append_inherited(all, section, visited, chosen);
+    }
+    return chosen;
+}
+
+}  // namespace
+
+ImportedConfig import_prusaslicer(std::string_view text, const std::string& name, Settings& settings, TrackSettings& tracks,
+                                  PrinterSettings& printer) {
+    std::map<std::string, IniEntry> last;  // a later entry replaces what was inherited
+    for (IniEntry& e : chosen_entries(read_ini(text, name))) last[e.key] = std::move(e);
+    ImportedConfig imported;
+    const auto take = [&](const std::string& key, const IniEntry& entry) {
+        const auto field = fields().find(key);
+        if (field == fields().end()) {
+            imported.ignored.push_back(key);
+            return;
+        }
+        try {
+            field->second({settings, tracks, printer}, entry.value);
+            imported.taken.push_back(key);
+        } catch (const Ignored& ignored) {
+            imported.ignored.push_back(key + " (" + ignored.why + ")");
+        } catch (const Error& error) {
+            throw Error(ErrorKind::usage, name + ":" + std::to_string(entry.line) + ": " + key + ": " + error.what());
+        }
+    };
+    if (const auto nozzle = last.find("nozzle_diameter"); nozzle != last.end()) take(nozzle->first, nozzle->second);  // others depend on it
+    for (const auto& [key, entry] : last)
+        if (key != "nozzle_diameter") take(key, entry);
+    if (imported.taken.empty()) throw Error(ErrorKind::usage, name + ": no setting that we know; is it a PrusaSlicer config or bundle?");
+    if (!last.contains("name")) printer.name = "imported from PrusaSlicer";
+    return imported;
+}
+
+}  // namespace ribvault

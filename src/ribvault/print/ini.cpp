@@ -1,0 +1,62 @@
+#include "ribvault/print/ini.hpp"
+
+#include "ribvault/error.hpp"
+
+namespace ribvault {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+    const auto begin = text.find_first_not_of(" \t\r");
+    if (begin == std::string_view::npos) return {};
+    return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+}  // namespace
+
+std::vector<IniEntry> read_ini(std::string_view text, const std::string& name) {
+    std::vector<IniEntry> entries;
+    std::string section;
+    int number = 0;
+    if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+    while (!text.empty()) {
+        const auto end = text.find('\n');
+        const std::string_view line = trimmed(text.substr(0, end));
+        text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+        ++number;
+        if (line.empty() || line[0] == '#' || line[0] == ';') continue;
+        const auto refuse = [&](const char* why) {
+            throw Error(ErrorKind::usage, name + ":" + std::to_string(number) + ": '" + std::string(line.substr(0, 60)) + "' " + why);
+        };
+        if (line[0] == '[') {
+            if (line.back() != ']') refuse("is no section; it needs a ']' at its end");
+            section = std::string(trimmed(line.substr(1, line.size() - 2)));
+            continue;
+        }
+        const auto equals = line.find('=');
+        if (equals == std::string_view::npos || equals == 0) refuse("is no setting; write 'key = value'");
+        entries.push_back({section, std::string(trimmed(line.substr(0, equals))), std::string(trimmed(line.substr(equals + 1))), number});
+    }
+    return entries;
+}
+
+std::string unescaped(std::string_view value) {
+    if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
+    std::string text;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        if (value[i] != '\\' || i + 1 == value.size()) {
+            text += value[i];
+            continue;
+        }
+        switch (value[++i]) {
+            case 'n': text += '\n'; break;
+            case 't': text += '\t'; break;
+            case 'r': break;
+            case '"': text += '"'; break;
+            case '\\': text += '\\'; break;
+            default: text += '\\', text += value[i];
+        }
+    }
+    return text;
+}
+
+}  // namespace ribvault

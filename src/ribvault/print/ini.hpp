@@ -1,0 +1,24 @@
+// Lines of the form `key = value`, with sections, as printer profiles and PrusaSlicer's bundles have them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ribvault {
+
+struct IniEntry {
+    std::string section;  ///< of the last `[section]` above; empty before the first
+    std::string key, value;
+    int line = 0;  ///< from 1
+};
+
+/// All entries of a text in its order. Lines that are empty or begin with `#` or `;` are comments; blanks around key and
+/// value do not count. `name`: what to call the text in errors.
+/// Throws Error (usage) with name and line number for a line that is none of these.
+std::vector<IniEntry> read_ini(std::string_view text, const std::string& name);
+
+/// `\n`, `\t`, `\"` and `\\` as the characters they stand for; outer quotes taken off.
+std::string unescaped(std::string_view value);
+
+}  // namespace ribvault

@@ -1,0 +1,165 @@
+#include "ribvault/print/printer_profile.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "ribvault/error.hpp"
+#include "ribvault/print/gcode_header.hpp"
+#include "ribvault/print/ini.hpp"
+
+namespace ribvault {
+namespace {
+
+/// Why a value cannot be, in the words that follow the key.
+struct Refusal {
+    std::string why;
+};
+
+double number(const std::string& text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) throw Refusal{"'" + text + "' is not a number"};
+    return value;
+}
+
+int whole(const std::string& text) {
+    const double value = number(text);
+    if (value != std::floor(value) || std::fabs(value) > 1e6) throw Refusal{"'" + text + "' is not a whole number"};
+    return static_cast<int>(value);
+}
+
+bool yes_or_no(const std::string& text) {
+    if (text == "yes" || text == "true" || text == "1") return true;
+    if (text == "no" || text == "false" || text == "0") return false;
+    throw Refusal{"'" + text + "' is neither yes nor no"};
+}
+
+template <std::size_t N>
+std::array<double, N> numbers(const std::string& text, const char* example) {
+    std::array<double, N> values{};
+    std::size_t from = 0;
+    for (std::size_t k = 0; k < N; ++k) {
+        const std::size_t comma = text.find(',', from);
+        if ((comma == std::string::npos) != (k + 1 == N)) throw Refusal{"'" + text + "' are not " + std::to_string(N) + " numbers; write for example " + example};
+        std::string part = text.substr(from, comma - from);
+        part.erase(0, part.find_first_not_of(' '));
+        part.erase(part.find_last_not_of(' ') + 1);
+        values[k] = number(part);
+        from = comma + 1;
+    }
+    return values;
+}
+
+using Setter = std::function<void(PrinterSettings&, const std::string&)>;
+
+Setter decimal(double PrinterSettings::*member) {
+    return [member](PrinterSettings& p, const std::string& v) { p.*member = number(v); };
+}
+Setter integer(int PrinterSettings::*member) {
+    return [member](PrinterSettings& p, const std::string& v) { p.*member = whole(v); };
+}
+Setter flag(bool PrinterSettings::*member) {
+    return [member](PrinterSettings& p, const std::string& v) { p.*member = yes_or_no(v); };
+}
+Setter line_of(std::string PrinterSettings::*member) {
+    return [member](PrinterSettings& p, const std::string& v) { p.*member += unescaped(v) + "\n"; };
+}
+Setter axes(std::array<double, 4> MotionLimits::*member) {
+    return [member](PrinterSettings& p, const std::string& v) { p.limits.*member = numbers<4>(v, "500,500,12,120 (x, y, z, filament)"); };
+}
+Setter acceleration(double MotionLimits::*member) {
+    return [member](PrinterSettings& p, const std::string& v) { p.limits.*member = number(v); };
+}
+
+const std::map<std::string, Setter>& keys() {
+    using P = PrinterSettings;
+    static const std::map<std::string, Setter> all{
+        {"name", [](P& p, const std::string& v) { p.name = v; }},
+        {"flavour",
+         [](P& p, const std::string& v) {
+             if (v == "marlin") p.flavour = Flavour::marlin;
+             else if (v == "klipper") p.flavour = Flavour::klipper;
+             else if (v == "reprapfirmware") p.flavour = Flavour::reprapfirmware;
+             else throw Refusal{"'" + v + "' is none of marlin, klipper, reprapfirmware"};
+         }},
+        {"bed",
+         [](P& p, const std::string& v) {
+             const auto size = numbers<3>(v, "250,210,200");
+             p.bed_x = size[0], p.bed_y = size[1], p.bed_z = size[2];
+         }},
+        {"round_bed", flag(&P::round_bed)},
+        {"origin_at_centre", flag(&P::origin_at_centre)},
+        {"filament_diameter", decimal(&P::filament_diameter)},
+        {"nozzle_temperature", integer(&P::nozzle_temperature)},
+        {"bed_temperature", integer(&P::bed_temperature)},
+        {"fan_percent", decimal(&P::fan_percent)},
+        {"print_speed", decimal(&P::print_speed)},
+        {"support_speed", decimal(&P::support_speed)},
+        {"first_layer_speed", decimal(&P::first_layer_speed)},
+        {"travel_speed", decimal(&P::travel_speed)},
+        {"retraction", decimal(&P::retraction)},
+        {"retraction_speed", decimal(&P::retraction_speed)},
+        {"retract_over", decimal(&P::retract_over)},
+        {"longest_detour", decimal(&P::longest_detour)},
+        {"prime_surplus", decimal(&P::prime_surplus)},
+        {"surplus_clearance", decimal(&P::surplus_clearance)},
+        {"max_speed", axes(&MotionLimits::speed)},
+        {"max_acceleration", axes(&MotionLimits::acceleration)},
+        {"jerk", axes(&MotionLimits::jerk)},
+        {"print_acceleration", acceleration(&MotionLimits::print_acceleration)},
+        {"retract_acceleration", acceleration(&MotionLimits::retract_acceleration)},
+        {"travel_acceleration", acceleration(&MotionLimits::travel_acceleration)},
+        {"write_limits", flag(&P::write_limits)},
+        {"file_header", line_of(&P::file_header)},
+        {"start_gcode", line_of(&P::start_gcode)},
+        {"end_gcode", line_of(&P::end_gcode)},
+        {"thumbnails", [](P& p, const std::string& v) { p.thumbnails = v; }},
+    };
+    return all;
+}
+
+}  // namespace
+
+PrinterSettings read_profile(std::string_view text, const std::string& name) {
+    PrinterSettings printer;
+    std::map<std::string, int> seen;
+    int last = 0;
+    for (const IniEntry& entry : read_ini(text, name)) {
+        const auto refuse = [&](const std::string& why) {
+            throw Error(ErrorKind::usage, name + ":" + std::to_string(entry.line) + ": " + entry.key + ": " + why);
+        };
+        const auto key = keys().find(entry.key);
+        if (key == keys().end()) refuse("no such key in a printer profile; docs/printing.md lists them");
+        const bool lines = entry.key == "start_gcode" || entry.key == "end_gcode" || entry.key == "file_header";
+        const auto [first, is_new] = seen.try_emplace(entry.key, entry.line);
+        if (!is_new && !lines) refuse("given already on line " + std::to_string(first->second));
+        if (is_new && entry.key == "start_gcode") printer.start_gcode.clear();
+        if (is_new && entry.key == "end_gcode") printer.end_gcode.clear();
+        try {
+            key->second(printer, entry.value);
+            check_printer(printer);
+        } catch (const Refusal& refusal) {
+            refuse(refusal.why);
+        } catch (const Error& error) {
+            refuse(error.what());
+        }
+        last = entry.line;
+    }
+    for (const char* key : {"nozzle_temperature", "bed_temperature"})
+        if (!seen.contains(key))
+            throw Error(ErrorKind::usage, name + ":" + std::to_string(last) + ": " + key + ": missing up to the end of the profile; add '" + key + " = ...' (degrees C)");
+    return printer;
+}
+
+PrinterSettings builtin_profile(std::string_view name) {
+    std::string names;
+    for (const BuiltinProfile& profile : builtin_profiles()) {
+        if (profile.name == name) return read_profile(profile.text, std::string(name));
+        (names += names.empty() ? "" : ", ") += profile.name;
+    }
+    throw Error(ErrorKind::usage, "--printer: there is no built-in profile '" + std::string(name) + "'; there are " + names);
+}
+
+}  // namespace ribvault

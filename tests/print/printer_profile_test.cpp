@@ -1,0 +1,139 @@
+#include <catch2/catch.hpp>
+
+#include "ribvault/error.hpp"
+#include "ribvault/print/gcode_header.hpp"
+#include "ribvault/print/import_prusaslicer.hpp"
+#include "ribvault/print/printer_profile.hpp"
+
+using namespace ribvault;
+
+namespace {
+
+const std::string temperatures = "nozzle_temperature = 200\nbed_temperature = 50\n";
+
+std::string refusal(const std::string& text) {
+    try {
+        read_profile(text, "my.ini");
+    } catch (const Error& error) {
+        CHECK(error.kind() == ErrorKind::usage);
+        return error.what();
+    }
+    return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("a profile says what it says and leaves the rest") {
+    const PrinterSettings p = read_profile(
+        "# my printer\n[printer]\nname = Mine\nflavour = klipper\n" + temperatures +
+            "bed = 120, 110, 100\nretraction = 0.8\nmax_speed = 1,2,3,4\nround_bed = yes\n"
+            "start_gcode = START_PRINT BED={bed_temperature}\nstart_gcode = G28\\nG1 Z5\n",
+        "my.ini");
+    CHECK(p.name == "Mine");
+    CHECK(p.flavour == Flavour::klipper);
+    CHECK(p.nozzle_temperature == 200);
+    CHECK(p.bed_temperature == 50);
+    CHECK(p.bed_y == 110);
+    CHECK(p.retraction == 0.8);
+    CHECK(p.limits.speed == std::array<double, 4>{1, 2, 3, 4});
+    CHECK(p.round_bed);
+    CHECK(p.start_gcode == "START_PRINT BED={bed_temperature}\nG28\nG1 Z5\n");
+    CHECK(p.travel_speed == PrinterSettings{}.travel_speed);
+    const std::string header = gcode_header({}, {}, p, {});
+    CHECK(header.find("START_PRINT BED=50\nG28\nG1 Z5\n") != std::string::npos);
+    CHECK(header.find("M190") == std::string::npos);  // the start G-code heats the bed
+    CHECK(header.find("M109 S200") != std::string::npos);
+}
+
+TEST_CASE("bad profiles are refused with the key and the line") {
+    CHECK(refusal(temperatures + "retration = 3\n").find("my.ini:3: retration: no such key") == 0);
+    CHECK(refusal("nozzle_temperature = hot\n").find("my.ini:1: nozzle_temperature: 'hot' is not a number") == 0);
+    CHECK(refusal("bed_temperature = 60\nretraction = 3 mm\n").find("my.ini:2: retraction: '3 mm' is not a number") == 0);
+    CHECK(refusal("bed_temperature = 60\n").find("my.ini:1: nozzle_temperature: missing") == 0);
+    CHECK(refusal("nozzle_temperature = 200\n").find("bed_temperature: missing") != std::string::npos);
+    CHECK(refusal(temperatures + "print_speed = -4\n").find("my.ini:3: print_speed:") == 0);
+    CHECK(refusal(temperatures + "bed = 1,2\n").find("my.ini:3: bed:") == 0);
+    CHECK(refusal(temperatures + "flavour = sailfish\n").find("my.ini:3: flavour: 'sailfish'") == 0);
+    CHECK(refusal(temperatures + "bed_temperature = 60\n").find("my.ini:3: bed_temperature: given already on line 2") == 0);
+    CHECK(refusal(temperatures + "start_gcode = G1 {speed}\n").find("my.ini:3: start_gcode:") == 0);
+    CHECK(refusal(temperatures + "start_gcode = G1 {speed}\n").find("{speed}") != std::string::npos);
+    CHECK(refusal(temperatures + "hello\n").find("my.ini:3: 'hello' is no setting") == 0);
+    CHECK(refusal(temperatures + "[printer\n").find("my.ini:3:") == 0);
+}
+
+TEST_CASE("built-in profiles: the paper's printers") {
+    CHECK(builtin_profiles().size() == 6);
+    for (const BuiltinProfile& profile : builtin_profiles()) {
+        const PrinterSettings p = builtin_profile(profile.name);
+        PrintFacts facts;
+        facts.layers = 5, facts.seconds = 100, facts.filament_mm = 1000;
+        CHECK_NOTHROW(gcode_header({}, {}, p, facts));
+        CHECK_NOTHROW(gcode_footer({}, p, facts));
+    }
+    CHECK(builtin_profile("cr-10").bed_x >= 273);  // Section 5.2: a print of 273 x 270 x 186 mm
+    CHECK(builtin_profile("cr-10").bed_y >= 270);
+    CHECK(builtin_profile("ultimaker3").filament_diameter == 2.85);
+    CHECK(gcode_header({}, {}, builtin_profile("ultimaker3"), {}).find(";START_OF_HEADER\n") == 0);
+    CHECK(builtin_profile("microdelta").origin_at_centre);
+    CHECK_THROWS_WITH(builtin_profile("replicator"), Catch::Contains("cr-10") && Catch::Contains("replicator"));
+}
+
+TEST_CASE("flavours write their own limits") {
+    PrinterSettings p;
+    p.write_limits = true;
+    const auto header = [&](Flavour flavour) {
+        p.flavour = flavour;
+        return gcode_header({}, {}, p, {});
+    };
+    CHECK(header(Flavour::marlin).find("M205 X10") != std::string::npos);
+    CHECK(header(Flavour::klipper).find("SET_VELOCITY_LIMIT") != std::string::npos);
+    CHECK(header(Flavour::klipper).find("M205") == std::string::npos);
+    CHECK(header(Flavour::reprapfirmware).find("M566 X600") != std::string::npos);
+    CHECK(header(Flavour::reprapfirmware).find("M203 X30000") != std::string::npos);
+    CHECK(header(Flavour::marlin).find("M203 X500") != std::string::npos);
+}
+
+TEST_CASE("a PrusaSlicer bundle: the presets it names, with what they inherit; the rest is named") {
+    const std::string bundle =
+        "[print:*common*]\nlayer_height = 0.3\nperimeters = 4\nfill_density = 20%\n"
+        "[print:fine]\ninherits = *common*\nlayer_height = 0.15\nseam_position = random\n"
+        "[print:other]\nlayer_height = 0.4\n"
+        "[filament:PLA]\ntemperature = 215,210\nbed_temperature = 55\nfilament_diameter = 1.75\n"
+        "[printer:box]\nnozzle_diameter = 0.6\nbed_shape = 0x0,200x0,200x180,0x180\nretract_length = 0.8\n"
+        "start_gcode = M104 S[first_layer_temperature]\\nG28\nend_gcode = {if layer_z > 3}G1{endif}\n"
+        "[presets]\nprint = fine\nfilament = PLA\nprinter = box\n";
+    Settings s;
+    TrackSettings t;
+    PrinterSettings p;
+    const std::string end = p.end_gcode;
+    const ImportedConfig imported = import_prusaslicer(bundle, "b.ini", s, t, p);
+    CHECK(s.layer_height == 15000);
+    CHECK(s.perimeters == 4);
+    CHECK(s.nozzle == 60000);
+    CHECK(p.nozzle_temperature == 215);
+    CHECK(p.bed_x == 200);
+    CHECK(p.bed_y == 180);
+    CHECK(p.retraction == 0.8);
+    CHECK(p.start_gcode == "M104 S{nozzle_temperature}\nG28");
+    CHECK(p.end_gcode == end);
+    const auto ignored = [&](const std::string& key) {
+        return std::any_of(imported.ignored.begin(), imported.ignored.end(), [&](const std::string& i) { return i.find(key) == 0; });
+    };
+    CHECK(ignored("fill_density"));
+    CHECK(ignored("seam_position ("));
+    CHECK(ignored("end_gcode ("));
+    CHECK_FALSE(ignored("layer_height"));
+}
+
+TEST_CASE("a flat PrusaSlicer config is taken whole; a bad number is refused with key and line") {
+    Settings s;
+    TrackSettings t;
+    PrinterSettings p;
+    import_prusaslicer("layer_height = 0.1\nbed_shape = -90x-90,90x-90,90x90,-90x90\n", "c.ini", s, t, p);
+    CHECK(s.layer_height == 10000);
+    CHECK(p.origin_at_centre);
+    CHECK(p.bed_x == 180);
+    CHECK_THROWS_WITH(import_prusaslicer("a = 1\ntemperature = warm\n", "c.ini", s, t, p), Catch::Contains("c.ini:2: temperature: 'warm'"));
+    CHECK_THROWS_WITH(import_prusaslicer("layer_height = thin\n", "c.ini", s, t, p), Catch::Contains("c.ini:1: layer_height"));
+    CHECK_THROWS_WITH(import_prusaslicer("colour = red\n", "c.ini", s, t, p), Catch::Contains("no setting that we know"));
+}
