@@ -114,7 +114,7 @@ std::vector<OpenPart> Judge::parts_of(const std::vector<Stretch>& gaps, const st
     const PreparedTrack& t = pair_.above[track_];
     std::vector<OpenPart> parts;
     for (const Stretch& gap : gaps) {
-        const int n = std::max(1, static_cast<int>(std::min(1e6, std::ceil((gap.hi - gap.lo) / (6 * t.half)))));
+        const int n = std::max(1, static_cast<int>(std::min(1e5, std::ceil((gap.hi - gap.lo) / (6 * t.half + 64 * pair_.margin)))));
         const double step = (gap.hi - gap.lo) / n;
         for (int i = 0; i < n; ++i) {
             OpenPart part;
