@@ -80,12 +80,16 @@ UnsupportedRegion describe(const PrintedPair& pair, const std::vector<const Open
     if (!witness && area.half > 0) witness = short_point(pair, tracks, area.x, area.y);
     for (const OpenPart* p : parts) {
         if (witness) break;
-        if (p->gap) witness = point_of_gap(pair.upper[static_cast<std::size_t>(p->track)], *p->gap);
-        else witness = p->witness;
+        if (p->gap) {
+            witness = point_of_gap(pair.upper[static_cast<std::size_t>(p->track)], *p->gap);
+        } else {
+            LocalProblem local;
+            build_part_problem(pair, *p, local);
+            witness = witness_from(pair, p->track, local, *p->found);
+        }
     }
     region.witness_certified = witness.has_value();
-    const std::array<double, 2>& place = parts.front()->place;
-    region.witness = witness ? *witness : RationalPoint{Rational(place[0]), Rational(place[1])};
+    region.witness = witness ? *witness : RationalPoint{Rational(farthest.x), Rational(farthest.y)};
     double distance = 0;
     pair.grid.nearest(region.witness[0].get_d(), region.witness[1].get_d(), distance);
     region.witness_distance = std::max(distance - 2 * pair.margin, witness ? rho_down : 0);

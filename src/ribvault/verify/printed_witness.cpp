@@ -8,7 +8,6 @@ namespace ribvault::verify {
 
 namespace {
 
-constexpr unsigned digits = 700;  // binary ones
 
 // Nearest multiple of 2^-digits.
 Rational rounded(const Rational& a, unsigned bits) {
@@ -23,7 +22,7 @@ Rational rounded(const Rational& a, unsigned bits) {
     return r;
 }
 
-Rational approximate(const Algebraic& a) {
+Rational approximate(const Algebraic& a, unsigned digits) {
     return Rational(a.approx(CORE::extLong(digits), CORE::extLong(digits)).BigRatValue().get_mp());
 }
 
@@ -41,11 +40,11 @@ struct Start {
     Vec<Rational> at, along;
 };
 
-Start start_of(const CoverProblem& problem, const Uncovered& found) {
+Start start_of(const CoverProblem& problem, const Uncovered& found, unsigned digits) {
     const CGAL::Protect_FPU_rounding<true> nearest(CGAL_FE_TONEAREST);
     const std::lock_guard lock(algebraic_mutex());
     const Vec<Algebraic> v = locate<Algebraic>(problem, *found.candidate);
-    Start start{{approximate(v.x), approximate(v.y)}, {Rational(1), Rational(0)}};
+    Start start{{approximate(v.x, digits), approximate(v.y, digits)}, {Rational(1), Rational(0)}};
     const Leaving& l = found.leaving;
     if (l.a < 0) return start;
     const auto vertex = [&](int i) { return exact_point<Rational>(problem.vertices[static_cast<std::size_t>(i)]); };
@@ -57,6 +56,17 @@ Start start_of(const CoverProblem& problem, const Uncovered& found) {
 }
 
 }  // namespace
+
+void build_part_problem(const PrintedPair& pair, const OpenPart& part, LocalProblem& local) {
+    const PreparedTrack piece = part_of(pair, part);
+    const Square square{(piece.ax + piece.bx) / 2, (piece.ay + piece.by) / 2,
+                        std::max(std::abs(piece.dx), std::abs(piece.dy)) / 2 + piece.half + 4 * pair.margin};
+    std::vector<int> near;
+    pair.grid.near(piece, piece.half + 2 * window_slack(pair.margin) + square.half, near);
+    const Below below{pair.lower, pair.below, pair.radii, near, {}};
+    const int pieces[] = {0};
+    build_local_problem({part.piece ? &*part.piece : &pair.upper[static_cast<std::size_t>(part.track)], 1}, pieces, below, square, pair.margin, local);
+}
 
 bool in_upper(const PrintedPair& pair, int track, const RationalPoint& p) {
     const PrintedTrack& t = pair.upper[static_cast<std::size_t>(track)];
@@ -77,13 +87,14 @@ bool outside_lower(const PrintedPair& pair, const RationalPoint& p) {
 
 std::optional<RationalPoint> witness_from(const PrintedPair& pair, int track, const LocalProblem& local,
                                           const Uncovered& found) {
+    constexpr unsigned digits = 700;  // binary ones
     const auto attempt = [&](const Vec<Rational>& q) -> std::optional<RationalPoint> {
         const RationalPoint mm = local.to_mm(q.x, q.y);
         if (in_upper(pair, track, mm) && outside_lower(pair, mm)) return mm;
         return std::nullopt;
     };
     if (!found.candidate) return attempt({Rational(found.x), Rational(found.y)});
-    const Start start = start_of(local.problem, found);
+    const Start start = start_of(local.problem, found, digits);
     if (const auto mm = attempt(start.at)) return mm;
     const Vec<Rational> normal{Rational(-start.along.y), start.along.x};
     // v + s (d + t n), rounded so that the digits grow with the closeness only.
