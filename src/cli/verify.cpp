@@ -23,6 +23,14 @@ CLI::Option* add_number(CLI::App* command, const std::string& name, Target& targ
         name, [&target, name](const std::string& text) { target = parse_rational(text, name); }, help)->type_name(unit);
 }
 
+/// Names between commas; blanks around them do not count.
+void add_list(CLI::App* command, const std::string& name, std::vector<std::string>& target, const std::string& help) {
+    command->add_option_function<std::string>(name, [&target](const std::string& text) {
+        for (const std::string& part : CLI::detail::split(text, ','))
+            if (std::string entry = CLI::detail::trim_copy(part); !entry.empty()) target.push_back(std::move(entry));
+    }, help)->type_name("LIST");
+}
+
 int run(Written& w) {
     const auto path = [](const std::string& text) { return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text); };
     w.job.gcode = w.gcode;
@@ -51,10 +59,8 @@ std::function<int()> add_verify(CLI::App& app) {
     const auto radius = add_number(rule, "--support-radius", w.job.support_radius, "rho of equations (1) and (2) (default: half the nozzle)");
     add_number(rule, "--overlap", w.job.overlap, "share of a line's width that must rest on material; rho = (1 - R) nozzle (default 0.5)", "R")->excludes(radius);
     add_number(rule, "--nozzle", w.job.nozzle, "its diameter (default: as the file says, else 0.4)");
-    const auto only = rule->add_option("--features", w.job.features, "judge only these feature types: names, or kinds such as infill, perimeter, support")
-        ->delimiter(',')->type_name("LIST")->expected(1);
-    rule->add_option("--ignore-features", w.job.ignored_features, "do not judge these; they are material below all the same")
-        ->delimiter(',')->type_name("LIST")->expected(1)->excludes(only);
+    add_list(rule, "--features", w.job.features, "judge only these feature types: names, or kinds such as infill, perimeter, support");
+    add_list(rule, "--ignore-features", w.job.ignored_features, "do not judge these; they are material below all the same");
     add_number(rule, "--allow-bridges", w.job.longest_bridge, "straight spans up to this length between two ends that are held up count as supported");
     add_number(rule, "--min-area", w.job.min_area, "unsupported regions up to this do not count (default 0)", "MM2");
     const auto reading = command->add_option_group("Reading");

@@ -75,7 +75,7 @@ Farthest farthest_in(std::span<const PreparedTrack> pieces, const LowerTracks& l
                                           to_stadium(below, x - half, y + half), to_stadium(below, x + half, y + half)}));
         if (bound <= best.lo) return;
         double px = x, py = y;
-        if (inside > p.half - lower.margin) {
+        if (inside > 0 && inside > p.half - lower.margin) {
             // Drawn into the stadium, towards its centre line.
             double t = ((x - p.ax) * p.dx + (y - p.ay) * p.dy) * p.inverse_norm;
             t = std::clamp(t, 0.0, 1.0);

@@ -26,6 +26,7 @@ struct OpenPart {
     Stretch stretch;                          ///< along it, mm
     std::optional<CentreGap> gap;             ///< on the centre line
     std::optional<Uncovered> found;           ///< else: in the local problem of the part
+    std::optional<PrintedTrack> piece;        ///< M of that problem when it is not all of the track: the part itself
 };
 
 /// The part of the stretch as a track of its own: its stadium holds all of the track's stadium beside the stretch, and

@@ -64,8 +64,8 @@ void build_part_problem(const PrintedPair& pair, const OpenPart& part, LocalProb
     std::vector<int> near;
     pair.grid.near(piece, piece.half + 2 * window_slack(pair.margin) + square.half, near);
     const Below below{pair.lower, pair.below, pair.radii, near, {}};
-    const int pieces[] = {part.track};
-    build_local_problem(pair.upper, pieces, below, square, pair.margin, local);
+    const int pieces[] = {0};
+    build_local_problem({part.piece ? &*part.piece : &pair.upper[static_cast<std::size_t>(part.track)], 1}, pieces, below, square, pair.margin, local);
 }
 
 bool in_upper(const PrintedPair& pair, int track, const RationalPoint& p) {

@@ -36,10 +36,11 @@ public:
 
 private:
     bool follows_one();
-    bool stadiums_open(const Stretch& part);
     bool wanted() const { return options_.regions || options_.stretches; }  ///< all of what is open
     void report_gap(const CentreGap& gap);
-    void find_open_parts(const std::vector<Stretch>& gaps, const std::vector<CentreGap>& centre);
+    std::vector<OpenPart> parts_of(const std::vector<Stretch>& gaps, const std::vector<CentreGap>& centre) const;
+    bool uncovered(OpenPart& part);
+    bool violates(std::vector<OpenPart> parts, bool known);
 
     const PrintedPair& pair_;
     const PrintedOptions& options_;
@@ -109,35 +110,57 @@ void Judge::report_gap(const CentreGap& gap) {
     verdict_.pieces.push_back(piece);
 }
 
-// Whether some of what the stadium of the track has beside the stretch is not supported. Adds what it finds.
-void Judge::find_open_parts(const std::vector<Stretch>& gaps, const std::vector<CentreGap>& centre) {
+// The gaps in parts of a few widths, each with a stretch of the centre line that is known to be open.
+std::vector<OpenPart> Judge::parts_of(const std::vector<Stretch>& gaps, const std::vector<CentreGap>& centre) const {
     const PreparedTrack& t = pair_.above[track_];
-    const double longest = 6 * t.half;
+    std::vector<OpenPart> parts;
     for (const Stretch& gap : gaps) {
-        const int parts = std::max(1, static_cast<int>(std::min(1e6, std::ceil((gap.hi - gap.lo) / longest))));
-        const double step = (gap.hi - gap.lo) / parts;
-        for (int i = 0; i < parts; ++i) {
+        const int n = std::max(1, static_cast<int>(std::min(1e5, std::ceil((gap.hi - gap.lo) / (6 * t.half + 64 * pair_.margin)))));
+        const double step = (gap.hi - gap.lo) / n;
+        for (int i = 0; i < n; ++i) {
             OpenPart part;
             part.track = static_cast<int>(track_);
             part.stretch = {gap.lo + i * step - pair_.margin, gap.lo + (i + 1) * step + pair_.margin};
             for (const CentreGap& c : centre) {
-                // Certainly meets the part: then the part is open without further proof.
                 const double from = enclose(c.from, 60)[1].get_d() * t.length + pair_.margin;
                 const double to = enclose(c.to, 60)[0].get_d() * t.length - pair_.margin;
                 if (std::max(from, part.stretch.lo) < std::min(to, part.stretch.hi)) part.gap = c;
             }
-            if (part.gap) {
-                open.push_back(std::move(part));
-                continue;
-            }
-            LocalProblem local;
-            build_part_problem(pair_, part, local);
-            part.found = find_uncovered(local.problem, local.window, verdict_.stages);
-            if (!part.found) continue;
-            open.push_back(std::move(part));
-            if (!wanted()) return;
+            parts.push_back(std::move(part));
         }
     }
+    return parts;
+}
+
+bool Judge::uncovered(OpenPart& part) {
+    LocalProblem local;
+    build_part_problem(pair_, part, local);
+    part.found = find_uncovered(local.problem, local.window, verdict_.stages);
+    return part.found.has_value();
+}
+
+// (2) fails when a corner of what is not supported lies in the window of some part. Which parts hold some of it takes
+// another look, at the part as a track of its own: a part in the middle may have no corner.
+bool Judge::violates(std::vector<OpenPart> parts, bool known) {
+    for (std::size_t i = 0; i < parts.size() && !known; ++i) known = uncovered(parts[i]);
+    if (!known || !wanted()) return known;
+    for (OpenPart& part : parts) {
+        if (!part.gap) {
+            const PreparedTrack& t = pair_.above[track_];
+            const PrintedTrack& whole = pair_.upper[track_];
+            PrintedTrack piece = whole;
+            if (t.inverse_norm > 0)
+                for (const std::size_t c : {0, 1}) {
+                    const Rational d = whole.b[c] - whole.a[c];
+                    piece.a[c] += d * Rational(std::clamp(part.stretch.lo / t.length, 0.0, 1.0));
+                    piece.b[c] = whole.a[c] + d * Rational(std::clamp(part.stretch.hi / t.length, 0.0, 1.0));
+                }
+            part.piece = std::move(piece);
+            if (!uncovered(part)) continue;
+        }
+        open.push_back(std::move(part));
+    }
+    return true;
 }
 
 void Judge::judge(int index) {
@@ -161,21 +184,19 @@ void Judge::judge(int index) {
     const Below below{pair_.lower, pair_.below, pair_.radii, near_, seen_};
     const std::vector<CentreGap> centre = centre_gaps(pair_.upper[track_], t, below, pair_.margin, verdict_.stages);
     for (const CentreGap& gap : centre) report_gap(gap);
-    const std::size_t before = open.size();
-    if (options_.areas && (centre.empty() || wanted())) find_open_parts(gaps, centre);
-    // Gaps too short for doubles to place them.
-    if (options_.areas && wanted())
-        for (const CentreGap& c : centre) {
-            const double from = enclose(c.from, 60)[0].get_d() * t.length, to = enclose(c.to, 60)[1].get_d() * t.length;
-            const bool known = std::any_of(open.begin() + static_cast<std::ptrdiff_t>(before), open.end(), [&](const OpenPart& p) {
-                return p.stretch.lo <= to && p.stretch.hi >= from;
-            });
-            if (!known) open.push_back({index, {from - slack, to + slack}, c, {}});
-        }
-    if (!centre.empty() || open.size() > before) {
-        verdict_.supported = false;
-        verdict_.track_supported[track_] = 0;
+    if (!options_.areas) {
+        if (!centre.empty()) verdict_.supported = false, verdict_.track_supported[track_] = 0;
+        return;
     }
+    std::vector<OpenPart> parts = parts_of(gaps, centre);
+    // Stretches of the centre line too short for doubles to place them.
+    if (wanted())
+        for (const CentreGap& c : centre) {
+            const bool known = std::any_of(parts.begin(), parts.end(), [&](const OpenPart& p) { return p.gap.has_value(); });
+            const double from = enclose(c.from, 60)[0].get_d() * t.length, to = enclose(c.to, 60)[1].get_d() * t.length;
+            if (!known) parts.push_back({index, {from - slack, to + slack}, c, {}, {}});
+        }
+    if (violates(std::move(parts), !centre.empty())) verdict_.supported = false, verdict_.track_supported[track_] = 0;
 }
 
 }  // namespace

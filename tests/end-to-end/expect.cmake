@@ -1,0 +1,18 @@
+# Runs COMMAND (a list) and checks its exit code EXIT, and that its whole output matches MATCH, where given.
+# FILES: files that must be there afterwards. CLEAN: a folder to start from empty.
+if(CLEAN)
+  file(REMOVE_RECURSE ${CLEAN})
+  file(MAKE_DIRECTORY ${CLEAN})
+endif()
+execute_process(COMMAND ${COMMAND} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err)
+if(NOT code EQUAL EXIT)
+  message(FATAL_ERROR "exit code ${code}, expected ${EXIT}\n${out}\n${err}")
+endif()
+if(MATCH AND NOT "${out}${err}" MATCHES "${MATCH}")
+  message(FATAL_ERROR "the output does not match '${MATCH}':\n${out}\n${err}")
+endif()
+foreach(file IN LISTS FILES)
+  if(NOT EXISTS ${file})
+    message(FATAL_ERROR "${file} was not written")
+  endif()
+endforeach()

@@ -1,0 +1,241 @@
+#include "ribvault/pipeline/verify_print.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "report/scratch_folder.hpp"
+#include "ribvault/error.hpp"
+#include "ribvault/pipeline/generate.hpp"
+
+using namespace ribvault;
+using namespace ribvault::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+VerifyJob job_on(const std::string& name) {
+    VerifyJob job;
+    job.gcode = std::filesystem::path(RIBVAULT_CORPUS) / "gcode" / "verify" / name;
+    return job;
+}
+
+std::string usage_error(const VerifyJob& job) {
+    try {
+        verify_print(job);
+    } catch (const Error& e) {
+        CHECK(e.kind() == ErrorKind::usage);
+        return e.what();
+    }
+    return "no error";
+}
+
+const HangingFeature& feature(const PrintReport& r, const std::string& name) {
+    for (const HangingFeature& f : r.features)
+        if (f.name == name) return f;
+    FAIL("no feature " << name);
+    return r.features.front();
+}
+
+/// G-code of a print as `generate` writes it.
+std::filesystem::path cube(const ScratchFolder& folder) {
+    Job job;
+    job.model = folder / "cube.stl";
+    std::ofstream stl(job.model);
+    const double s = 8;
+    const double v[8][3] = {{0, 0, 0}, {s, 0, 0}, {s, s, 0}, {0, s, 0}, {0, 0, s}, {s, 0, s}, {s, s, s}, {0, s, s}};
+    const int t[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+    stl << "solid cube\n";
+    for (const auto& f : t) {
+        stl << "facet normal 0 0 0\nouter loop\n";
+        for (int k : f) stl << "vertex " << v[k][0] << ' ' << v[k][1] << ' ' << v[k][2] << '\n';
+        stl << "endloop\nendfacet\n";
+    }
+    stl << "endsolid\n";
+    stl.close();
+    job.gcode = folder / "cube.gcode";
+    generate(job);
+    return *job.gcode;
+}
+
+}  // namespace
+
+TEST_CASE("a cantilever hangs where it leaves what is below by more than rho", "[verify-print]") {
+    const PrintReport r = verify_print(job_on("cantilever.gcode"));
+    CHECK_FALSE(r.supported);
+    CHECK(r.support_radius_exact == "1/5");
+    CHECK(r.nozzle_source == "file");
+    const HangingFeature& f = feature(r, "Perimeter");
+    CHECK(f.length_mm == Approx(30));
+    CHECK(f.unsupported_mm.lo <= Approx(9.6).margin(1e-9));  // 20 - 10 - width / 2 - rho
+    CHECK(f.unsupported_mm.hi >= Approx(9.6).margin(1e-9));
+    CHECK(f.unsupported_mm.hi - f.unsupported_mm.lo < 1e-6);
+    CHECK(f.worst_mm.lo <= 9.8 + 1e-9);
+    CHECK(f.worst_mm.hi >= 9.8 - 1e-9);
+    CHECK(f.worst_layer == 1);
+    CHECK(f.worst_line == 13);
+    CHECK(feature(r, "Support material").unsupported_mm.hi == 0);
+    CHECK(r.layers[0].on_bed);
+    CHECK(r.layers[0].supported);
+    REQUIRE(r.layers[1].regions.size() == 1);
+    // the stadium's end beyond the circle of 0.4 mm about (10, 0)
+    CHECK(r.layers[1].regions[0].area_mm2.hi > 9.6 * 0.4);
+    CHECK(r.layers[1].regions[0].lines == std::vector<std::int64_t>{13});
+}
+
+TEST_CASE("rho as given, by overlap, by nozzle", "[verify-print]") {
+    VerifyJob job = job_on("cantilever.gcode");
+    job.support_radius = Rational(98, 10);
+    CHECK_FALSE(verify_print(job).supported);  // the rounded end is 10 mm away
+    job.support_radius = Rational(10);
+    CHECK(verify_print(job).supported);
+    job.support_radius.reset();
+    job.overlap = Rational(1, 4);
+    CHECK(verify_print(job).support_radius_exact == "3/10");
+    job.overlap.reset();
+    job.nozzle = Rational(3, 5);
+    CHECK(verify_print(job).support_radius_exact == "3/10");
+}
+
+TEST_CASE("exactly rho is held up", "[verify-print]") {
+    CHECK(verify_print(job_on("wall.gcode")).supported);
+    VerifyJob job = job_on("wall.gcode");
+    job.support_radius = Rational(199999, 1000000);
+    CHECK_FALSE(verify_print(job).supported);
+}
+
+TEST_CASE("bridges count as supported when they are allowed, and are listed apart", "[verify-print]") {
+    VerifyJob job = job_on("bridge.gcode");
+    const PrintReport strict = verify_print(job);
+    CHECK_FALSE(strict.supported);
+    CHECK(strict.unsupported_mm.hi == Approx(5.2));
+    job.longest_bridge = Rational(53, 10);
+    const PrintReport lenient = verify_print(job);
+    CHECK(lenient.supported);
+    CHECK(lenient.unsupported_mm.hi == 0);
+    CHECK(lenient.bridged_mm.hi == Approx(5.2));
+    CHECK(feature(lenient, "Bridge infill").bridged_mm.hi == Approx(5.2));
+    REQUIRE(lenient.layers[1].bridges.size() == 1);
+    CHECK_THAT(summary(lenient, job), Contains("but for the bridges"));
+    job.longest_bridge = Rational(5);
+    CHECK_FALSE(verify_print(job).supported);
+    job = job_on("cantilever.gcode");
+    job.longest_bridge = Rational(100);
+    CHECK_FALSE(verify_print(job).supported);
+}
+
+TEST_CASE("features are chosen by name or kind", "[verify-print]") {
+    VerifyJob job = job_on("cantilever.gcode");
+    job.features = {"support MATERIAL"};
+    CHECK(verify_print(job).supported);
+    CHECK_FALSE(feature(verify_print(job), "Perimeter").judged);
+    job.features = {"perimeter"};
+    CHECK_FALSE(verify_print(job).supported);
+    job.features.clear();
+    job.ignored_features = {"support"};
+    CHECK_FALSE(verify_print(job).supported);
+    job.ignored_features = {"perimeter"};
+    CHECK(verify_print(job).supported);
+    job.ignored_features = {"bridges"};
+    CHECK_THAT(usage_error(job), Contains("'bridges'") && Contains("'Perimeter', 'Support material'"));
+}
+
+TEST_CASE("small regions pass with --min-area", "[verify-print]") {
+    VerifyJob job = job_on("cantilever.gcode");
+    job.min_area = 5;
+    const PrintReport r = verify_print(job);
+    CHECK(r.supported);
+    CHECK(r.layers[1].regions[0].ignored);
+    CHECK_THAT(summary(r, job), Contains("--min-area"));
+    job.min_area = 3;
+    CHECK_FALSE(verify_print(job).supported);
+}
+
+TEST_CASE("settings that cannot be", "[verify-print]") {
+    VerifyJob job = job_on("wall.gcode");
+    job.support_radius = Rational(0);
+    CHECK_THAT(usage_error(job), Contains("--support-radius is 0"));
+    job = job_on("wall.gcode");
+    job.overlap = Rational(1);
+    CHECK_THAT(usage_error(job), Contains("--overlap is 1"));
+    job = job_on("wall.gcode");
+    job.min_area = -1;
+    CHECK_THAT(usage_error(job), Contains("--min-area"));
+}
+
+TEST_CASE("outputs: the same for any number of threads", "[verify-print]") {
+    const ScratchFolder folder;
+    const std::filesystem::path gcode = cube(folder);
+    std::vector<std::string> reports, pages, pictures;
+    for (const int threads : {1, 2, 5}) {
+        VerifyJob job;
+        job.gcode = gcode;
+        job.threads = threads;
+        job.report = folder / "report.json", job.html = folder / "page.html", job.svg = folder / ("svg" + std::to_string(threads));
+        const PrintReport r = verify_print(job);
+        const std::string json = contents(*job.report);
+        reports.push_back(json.substr(0, json.find("\"machine\"")));
+        pages.push_back(contents(*job.html));
+        std::string all;
+        std::set<std::filesystem::path> names;
+        for (const auto& entry : std::filesystem::directory_iterator(*job.svg)) names.insert(entry.path());
+        for (const auto& name : names) all += name.filename().string() + contents(name);
+        CHECK(names.size() <= 12);
+        pictures.push_back(all);
+        const auto parsed = nlohmann::json::parse(json);
+        CHECK(parsed["schema"] == "ribvault-verify/1");
+        CHECK(parsed["layers"].size() == r.layers.size());
+        CHECK(parsed["verdict"]["supported"] == r.supported);
+        double sum = 0;
+        for (const auto& f : parsed["features"]) sum += f["unsupported_mm"][1].get<double>();
+        CHECK(sum == Approx(parsed["totals"]["unsupported_mm"][1].get<double>()));
+    }
+    CHECK(reports[0] == reports[1]);
+    CHECK(reports[0] == reports[2]);
+    CHECK(pages[0] == pages[1]);
+    CHECK(pages[0] == pages[2]);
+    CHECK(pictures[0] == pictures[1]);
+    CHECK(pictures[0] == pictures[2]);
+    CHECK_FALSE(pages[0].empty());
+    CHECK(pages[0].find("http") == std::string::npos);  // nothing from elsewhere
+    CHECK(pages[0].find("@DATA@") == std::string::npos);
+}
+
+TEST_CASE("shells and covers of ribvault's own prints hold; only junction gaps open slivers", "[verify-print]") {
+    const ScratchFolder folder;
+    VerifyJob job;
+    job.gcode = cube(folder);
+    job.ignored_features = {"infill"};
+    const PrintReport r = verify_print(job);
+    for (const HangingFeature& f : r.features)
+        if (f.judged) CHECK(f.unsupported_mm.hi == 0);
+}
+
+TEST_CASE("a cut file is judged up to the cut, with a warning", "[verify-print]") {
+    const ScratchFolder folder;
+    const std::string whole = contents(job_on("cantilever.gcode").gcode);
+    VerifyJob job;
+    job.gcode = folder / "cut.gcode";
+    std::ofstream(job.gcode) << whole.substr(0, whole.find("X20") + 2);
+    std::string warned;
+    job.warn = [&](const std::string& text) { warned += text; };
+    const PrintReport r = verify_print(job);
+    CHECK_THAT(warned, Contains("middle of line 13"));
+    CHECK_THAT(summary(r, job), Contains("cut off"));
+    CHECK(r.supported);
+    CHECK(r.layer_count == 1);
+}
+
+TEST_CASE("nothing is written when the file cannot be read or the run is interrupted", "[verify-print]") {
+    const ScratchFolder folder;
+    VerifyJob job = job_on("none.gcode");
+    job.report = folder / "report.json", job.html = folder / "page.html";
+    CHECK_THROWS_AS(verify_print(job), Error);
+    job = job_on("wall.gcode");
+    job.report = folder / "report.json", job.html = folder / "page.html";
+    job.stop = [] { return true; };
+    CHECK_THROWS_AS(verify_print(job), Error);
+    CHECK(folder.names().empty());
+}

@@ -1,0 +1,79 @@
+#include "ribvault/verify/bridges.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace ribvault;
+
+namespace {
+
+const Rational radius(1, 5), width(2, 5);
+
+PrintedTrack track(double x0, double y0, double x1, double y1) { return {{Rational(x0), Rational(y0)}, {Rational(x1), Rational(y1)}, width, 0, 0}; }
+
+/// Piers from x = 0 to 2 and from x = 8 to 10.
+PrintedLayer piers() { return {0, 0, {track(0, 0, 2, 0), track(8, 0, 10, 0)}}; }
+
+std::vector<Bridge> bridges(const PrintedLayer& upper, const std::vector<char>& continues, double longest, const std::vector<char>& judged = {}) {
+    PrintedOptions lines;
+    lines.areas = lines.regions = false;
+    lines.judged = judged;
+    return find_bridges(upper, continues, judged, verify_printed(upper, piers(), radius, lines), longest);
+}
+
+}  // namespace
+
+TEST_CASE("a straight span between two piers is a bridge up to its length", "[bridges]") {
+    const PrintedLayer upper{0, 0, {track(0, 0, 10, 0)}};
+    REQUIRE(bridges(upper, {0}, 5.21).size() == 1);
+    CHECK(bridges(upper, {0}, 5.21)[0].length_mm == Approx(5.2));
+    CHECK(bridges(upper, {0}, 5.19).empty());
+}
+
+TEST_CASE("a bridge may have joints, if it is straight", "[bridges]") {
+    const PrintedLayer straight{0, 0, {track(0, 0, 4, 0), track(4, 0, 6, 0.005), track(6, 0.005, 10, 0)}};
+    REQUIRE(bridges(straight, {0, 1, 1}, 6).size() == 1);
+    CHECK(bridges(straight, {0, 1, 1}, 6)[0].pieces.size() == 3);
+    CHECK(bridges(straight, {0, 0, 1}, 6).empty());  // a travel between: two free ends
+    const PrintedLayer bent{0, 0, {track(0, 0, 5, 0.1), track(5, 0.1, 10, 0)}};
+    CHECK(bridges(bent, {0, 1}, 6).empty());
+    const PrintedLayer back{0, 0, {track(0, 0, 5, 0), track(5, 0, 4, 0), track(4, 0, 10, 0)}};
+    CHECK(bridges(back, {0, 1, 1}, 20).empty());
+}
+
+TEST_CASE("a cantilever is no bridge", "[bridges]") {
+    CHECK(bridges({0, 0, {track(0, 0, 6, 0)}}, {0}, 100).empty());
+    CHECK(bridges({0, 0, {track(6, 0, 0, 0)}}, {0}, 100).empty());
+    CHECK(bridges({0, 0, {track(3, 0, 6, 0)}}, {0}, 100).empty());
+    CHECK(bridges({0, 0, {track(0, 5, 10, 5)}}, {0}, 100).empty());
+    CHECK(bridges({0, 0, {track(5, 0, 5, 0)}}, {0}, 100).empty());  // a dot in the air
+}
+
+TEST_CASE("a track that is not judged holds no bridge", "[bridges]") {
+    const PrintedLayer upper{0, 0, {track(0, 0, 2.4, 0), track(2.4, 0, 10, 0)}};
+    CHECK(bridges(upper, {0, 1}, 6, {0, 1}).size() <= 1);
+    const PrintedLayer late{0, 0, {track(0, 0, 3, 0), track(3, 0, 10, 0)}};
+    CHECK(bridges(late, {0, 1}, 6).size() == 1);
+    CHECK(bridges(late, {0, 1}, 6, {0, 1}).empty());
+}
+
+TEST_CASE("what is left without a bridge is held up and lies on the track", "[bridges]") {
+    for (const bool joined : {false, true}) {
+        const PrintedLayer upper = joined ? PrintedLayer{0, 0, {track(0, 0, 2.5, 0), track(2.5, 0, 7.5, 0), track(7.5, 0, 10, 0)}}
+                                          : PrintedLayer{0, 0, {track(0, 0, 10, 0)}};
+        const std::vector<char> continues = joined ? std::vector<char>{0, 1, 1} : std::vector<char>{0};
+        PrintedOptions lines;
+        lines.areas = lines.regions = false;
+        const PrintedVerdict verdict = verify_printed(upper, piers(), radius, lines);
+        const auto found = find_bridges(upper, continues, {}, verdict, 6);
+        REQUIRE(found.size() == 1);
+        const WithoutBridges left = take_out_bridges(upper, continues, verdict, found);
+        REQUIRE(left.layer.tracks.size() == 2);
+        CHECK(left.origin == (joined ? std::vector<std::size_t>{0, 2} : std::vector<std::size_t>{0, 0}));
+        CHECK(verify_printed(left.layer, piers(), radius).supported);
+        CHECK(left.layer.tracks[0].a == upper.tracks[0].a);
+        CHECK(left.layer.tracks[0].b[0].get_d() == Approx(2.4 - 0.4));  // one width less than what is held up
+        CHECK(left.layer.tracks[1].a[0].get_d() == Approx(7.6 + 0.4));
+        CHECK(left.layer.tracks[1].b == upper.tracks.back().b);
+    }
+}
