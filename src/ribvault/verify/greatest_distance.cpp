@@ -91,7 +91,7 @@ Farthest farthest_in(std::span<const PreparedTrack> pieces, const LowerTracks& l
         push((p.ax + p.bx) / 2, (p.ay + p.by) / 2, std::max(std::abs(p.dx), std::abs(p.dy)) / 2 + p.half, i, HUGE_VAL);
     }
     while (effort > 0 && !open.empty() &&
-           open.top().bound > best.lo + 1e-4 * std::abs(best.lo) + 4 * lower.margin) {
+           open.top().bound > best.lo + 1e-3 * std::abs(best.lo) + 4 * lower.margin) {
         const Cell2 c = open.top();
         open.pop();
         for (const double dx : {-c.half / 2, c.half / 2})

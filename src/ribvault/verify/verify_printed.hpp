@@ -77,7 +77,7 @@ struct PrintedOptions {
     bool regions = true;           ///< describe what violates (2)
     bool stretches = false;        ///< where (2) is violated, without a description
     bool boundaries = false;       ///< and trace its boundary
-    int area_cells = 600;          ///< effort of a region's area and distance: about so many cells
+    int area_cells = 300;          ///< effort of a region's area and distance: about so many cells
 };
 
 /// Decides for the layer `upper` over `lower` whether every point of the judged tracks of `upper` has material of
