@@ -101,6 +101,30 @@ std::vector<Region> cover_areas(const Region& outline, const Region& cavity, int
     return connected_pieces(clip(cl::ctDifference, mitred(outline, -(perimeters + 0.5) * width), mitred(cavity, width / 2)));
 }
 
+/// Strips between perimeters, covers and cavity that are too narrow for a cover. `areas`: where centre lines of covers run.
+void append_gap_fill(const Region& outline, const Region& cavity, int perimeters, Unit w, const std::vector<Region>& areas, bool printed,
+                     LayerPlan& plan) {
+    const double width = static_cast<double>(w);
+    constexpr double apart = 10;  // lattice units: keeps Clipper away from nearly coincident borders
+    const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - apart), mitred(cavity, apart));
+    Region filled;
+    for (const Region& area : areas)
+        for (Contour& c : mitred(area, width / 2 + 2 * apart)) filled.push_back(std::move(c));
+    if (signed_area(room) - signed_area(filled) < width * width / 16) return;
+    const Region left = clip(cl::ctDifference, room, filled);
+    plan.unfilled_area += signed_area(left);
+    if (!printed) return;
+    // Only where a track of w / 2 has room; most strips are narrower all along.
+    const Region wide = clip(cl::ctIntersection, mitred(mitred(left, -width / 4), width / 4 + apart), left);
+    for (const Region& piece : connected_pieces(wide)) {
+        const double area = signed_area(piece);
+        if (area < width * width / 2) continue;
+        std::vector<PlannedTrack> strips = medial_tracks(piece, w, TrackKind::thin_wall);
+        if (!strips.empty()) plan.unfilled_area -= area;
+        std::move(strips.begin(), strips.end(), std::back_inserter(plan.tracks));
+    }
+}
+
 void append_concentric(Region area, Unit w, LayerPlan& plan) {
     const double width = static_cast<double>(w);
     while (!area.empty()) {
@@ -135,7 +159,9 @@ void append_shell_paths(const Slice& slice, const Region& cavity, const Settings
     const Region outermost = mitred(outline, -static_cast<double>(w) / 2);
     append_perimeters(outermost, w, settings, tracks, outline, plan);
     append_thin_walls(outline, outermost, w, tracks.thin_walls, plan);
-    for (const Region& area : cover_areas(outline, cavity, settings.perimeters, static_cast<double>(w)))
+    const std::vector<Region> areas = cover_areas(outline, cavity, settings.perimeters, static_cast<double>(w));
+    append_gap_fill(outline, cavity, settings.perimeters, w, areas, tracks.fill_gaps, plan);
+    for (const Region& area : areas)
         append_covers(area, w, slice.layer % 2 != 0, tracks.covers, plan);
 }
 
