@@ -241,6 +241,36 @@ TEST_CASE("the printed shell fills slices that a thin wall crosses: what has no 
     CHECK(layer.thin_places == 0);
 }
 
+TEST_CASE("a thin wall with a small bump stays one track") {
+    const Region outline{{{0, 0}, {10 * mm, 0}, {10 * mm, 32000}, {510000, 32000}, {505000, 38000}, {500000, 32000}, {0, 32000}}};
+    LayerPlan plan;
+    append_shell_paths(slice_of(outline), {}, {}, {}, plan);
+    CHECK(plan.tracks.size() == 1);
+}
+
+TEST_CASE("a strip between perimeter and cavity too narrow for a cover is filled with its width, or its area reported") {
+    const Region outline{rectangle(0, 0, 20 * mm, 20 * mm)};
+    const auto layer = [&](Unit strip) {
+        TrackSettings tracks;
+        tracks.fill_gaps = true;
+        return shell_paths(outline, {rectangle(40000 + strip, 40003, 1959997, 1959997)}, Settings{}, 0, tracks);
+    };
+    const LayerPaths filled = layer(30000);
+    double length_of_strip = 0;
+    for (const ToolPath& path : filled.paths)
+        if (path.kind == TrackKind::thin_wall) {
+            CHECK(path.width >= 28000);
+            CHECK(path.width <= 30000);
+            length_of_strip += length(path);
+        }
+    CHECK(length_of_strip > 18.5 * mm);
+    CHECK(filled.unfilled_area < 1e9);
+    const LayerPaths open = layer(15000);
+    CHECK(std::none_of(open.paths.begin(), open.paths.end(), [](const ToolPath& p) { return p.kind == TrackKind::thin_wall; }));
+    CHECK(open.unfilled_area == Approx(15000.0 * 19.2 * mm).epsilon(0.01));
+    CHECK(open.thin_places == 0);
+}
+
 TEST_CASE("perimeters come outer first or inner first, each after its neighbour") {
     Settings settings;
     settings.perimeters = 3;
@@ -270,7 +300,7 @@ TEST_CASE("the seam lies at the rear, at the sharpest corner, or where travel is
         return shell_paths(outline, {}, Settings{}, 0, tracks).paths.front().points.front();
     };
     CHECK(seam(Seam::aligned) == Point{20000, 980000});
-    CHECK(seam(Seam::corner).x > 1500000);
+    CHECK(seam(Seam::corner).x > 1500000);  // where the outline turns by 143 degrees
     CHECK(seam(Seam::nearest) != seam(Seam::corner));
 }
 

@@ -158,6 +158,7 @@ private:
         r.thin_wall_length_mm = p.length[of(TrackKind::thin_wall)];
         r.thin_places = paths.thin_places;
         r.thin_area_mm2 = area_to_mm2(paths.thin_area);
+        r.unfilled_area_mm2 = area_to_mm2(paths.unfilled_area);
         r.filament_mm = p.filament;
         for (double volume : p.volume) r.extruded_mm3 += volume;
         r.trees = static_cast<int>(num_vertices(swept.forest) - num_edges(swept.forest));

@@ -21,6 +21,7 @@ struct LayerPlan {
     Unit gap_length = 0;
     int thin_places = 0;      ///< places of the slice too narrow for any track
     double thin_area = 0;     ///< their area in square lattice units
+    double unfilled_area = 0;  ///< of the shell inside the perimeters that is too narrow for any track, the same
 };
 
 }  // namespace ribvault

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "ribvault/print/segment_rows.hpp"
+
 namespace ribvault {
 namespace {
 
@@ -56,13 +58,16 @@ double distance(Position p, const BoostSegment& s) {
     return std::hypot(tx - t * dx, ty - t * dy);
 }
 
-bool inside(const std::vector<BoostSegment>& border, Position p) {
+bool inside(const SegmentRows& border, Position p) {
     int winding = 0;
-    for (const BoostSegment& s : border) {
-        if ((s.low.y <= p.y) == (s.high.y <= p.y)) continue;
-        const double x = s.low.x + (p.y - s.low.y) * (s.high.x - double{0} - s.low.x) / (s.high.y - double{0} - s.low.y);
-        if (x > p.x) winding += s.high.y > s.low.y ? 1 : -1;
-    }
+    const auto row = static_cast<Unit>(std::floor(p.y));
+    border.any(row, row, [&](const Segment& s) {
+        const auto ay = static_cast<double>(s.a.y), by = static_cast<double>(s.b.y);
+        if ((ay <= p.y) == (by <= p.y)) return false;
+        const double x = static_cast<double>(s.a.x) + (p.y - ay) * static_cast<double>(s.b.x - s.a.x) / (by - ay);
+        if (x > p.x) winding += by > ay ? 1 : -1;
+        return false;
+    });
     return winding != 0;
 }
 
@@ -101,6 +106,9 @@ std::vector<BoostSegment> border_of(const Region& area, Point origin) {
 /// The part of the axis inside the area whose distance to the border lies between `least` and `most`.
 Axis axis_of(const std::vector<BoostSegment>& border, double least, double most, double step) {
     Diagram diagram;
+    std::vector<Segment> edges;
+    for (const BoostSegment& s : border) edges.push_back({{s.low.x, s.low.y}, {s.high.x, s.high.y}});
+    const SegmentRows rows(edges);
     bp::construct_voronoi(border.begin(), border.end(), &diagram);
     Axis axis;
     std::map<const Diagram::vertex_type*, Node> nodes;
@@ -109,7 +117,7 @@ Axis axis_of(const std::vector<BoostSegment>& border, double least, double most,
         const Diagram::edge_type& edge = diagram.edges()[e];
         if (!edge.is_primary() || !edge.is_finite()) continue;
         const Position a{edge.vertex0()->x(), edge.vertex0()->y()}, b{edge.vertex1()->x(), edge.vertex1()->y()};
-        if (!inside(border, {(a.x + b.x) / 2, (a.y + b.y) / 2})) continue;
+        if (!inside(rows, {(a.x + b.x) / 2, (a.y + b.y) / 2})) continue;
         const double ra = radius(edge, a), rb = radius(edge, b);
         if (std::max(ra, rb) < least || std::max(ra, rb) > most) continue;
         const auto node = [&](const Diagram::vertex_type* v, Position p, double r, Position q, double rq) {

@@ -95,27 +95,34 @@ void append_thin_walls(const Region& outline, const Region& outermost, Unit w, b
     }
 }
 
-/// What is left between the perimeters and the cavity beside the covers' areas (of centre lines): rings where a slope is
-/// steep, too narrow for straight fill.
-void append_narrow_covers(const Region& outline, const Region& cavity, const std::vector<Region>& areas, int perimeters, Unit w, LayerPlan& plan) {
-    const double width = static_cast<double>(w);
-    Region filled;
-    for (const Region& area : areas)
-        for (Contour& contour : mitred(area, width / 2 + 10)) filled.push_back(std::move(contour));
-    // Ten lattice units less and more, so that no slivers of rounding are left.
-    const Region inside = mitred(outline, -(perimeters * width + 10));
-    filled.insert(filled.end(), cavity.begin(), cavity.end());
-    for (const Region& piece : connected_pieces(clip(cl::ctDifference, inside, filled))) {
-        // Nowhere d / 2 wide: nothing to print, and no need of a medial axis to know it.
-        if (signed_area(piece) < width * width / 2 || mitred(piece, -width / 4).empty()) continue;
-        for (PlannedTrack& ring : medial_tracks(piece, w, TrackKind::cover)) plan.tracks.push_back(std::move(ring));
-    }
-}
-
 /// Where centre lines of covers may run, as connected areas with their holes. Eroding O_i \ C_i is eroding O_i and
 /// dilating C_i, and keeps Clipper away from the nearly coincident borders of the two.
 std::vector<Region> cover_areas(const Region& outline, const Region& cavity, int perimeters, double width) {
     return connected_pieces(clip(cl::ctDifference, mitred(outline, -(perimeters + 0.5) * width), mitred(cavity, width / 2)));
+}
+
+/// Strips between perimeters, covers and cavity that are too narrow for a cover. `areas`: where centre lines of covers run.
+void append_gap_fill(const Region& outline, const Region& cavity, int perimeters, Unit w, const std::vector<Region>& areas, bool printed,
+                     LayerPlan& plan) {
+    const double width = static_cast<double>(w);
+    constexpr double apart = 10;  // lattice units: keeps Clipper away from nearly coincident borders
+    const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - apart), mitred(cavity, apart));
+    Region filled;
+    for (const Region& area : areas)
+        for (Contour& c : mitred(area, width / 2 + 2 * apart)) filled.push_back(std::move(c));
+    if (signed_area(room) - signed_area(filled) < width * width / 16) return;
+    const Region left = clip(cl::ctDifference, room, filled);
+    plan.unfilled_area += signed_area(left);
+    if (!printed) return;
+    // Only where a track of w / 2 has room; most strips are narrower all along.
+    const Region wide = clip(cl::ctIntersection, mitred(mitred(left, -width / 4), width / 4 + apart), left);
+    for (const Region& piece : connected_pieces(wide)) {
+        const double area = signed_area(piece);
+        if (area < width * width / 2) continue;
+        std::vector<PlannedTrack> strips = medial_tracks(piece, w, TrackKind::thin_wall);
+        if (!strips.empty()) plan.unfilled_area -= area;
+        std::move(strips.begin(), strips.end(), std::back_inserter(plan.tracks));
+    }
 }
 
 void append_concentric(Region area, Unit w, LayerPlan& plan) {
@@ -153,8 +160,9 @@ void append_shell_paths(const Slice& slice, const Region& cavity, const Settings
     append_perimeters(outermost, w, settings, tracks, outline, plan);
     append_thin_walls(outline, outermost, w, tracks.thin_walls, plan);
     const std::vector<Region> areas = cover_areas(outline, cavity, settings.perimeters, static_cast<double>(w));
-    for (const Region& area : areas) append_covers(area, w, slice.layer % 2 != 0, tracks.covers, plan);
-    append_narrow_covers(outline, cavity, areas, settings.perimeters, w, plan);
+    append_gap_fill(outline, cavity, settings.perimeters, w, areas, tracks.fill_gaps, plan);
+    for (const Region& area : areas)
+        append_covers(area, w, slice.layer % 2 != 0, tracks.covers, plan);
 }
 
 }  // namespace ribvault

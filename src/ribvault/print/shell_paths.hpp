@@ -16,6 +16,9 @@ namespace ribvault {
 /// Thin walls: what of O_i no outer perimeter fills because it is narrower than w gets medial_tracks where it is at least
 /// w / 2 wide. Places still narrower are counted in the plan with their area, as are all without `tracks.thin_walls`.
 ///
+/// Gaps: strips of the shell between perimeters, covers and cavity that are too narrow for a cover get medial_tracks alike
+/// with `tracks.fill_gaps`; the area of the others, or of all, is added to the plan (`unfilled_area`).
+///
 /// Covers: what the perimeters and the cavity C_i (`cavity`) leave of O_i is filled by `tracks.covers`: straight tracks of
 /// width w, w apart, at 45° on even layers and at 135° on odd ones, or closed ones along the border with medial_tracks
 /// where they leave a middle. Their centre lines keep w / 2 from the border of this area, so that their material stays in

@@ -33,6 +33,7 @@ Contour hull_of(const Region& region) {
     return hull;
 }
 
+/// Loops at a distance around outer contours; those around holes lie inside them and are left out.
 void append_loops(const Region& around, double distance, Unit width, std::vector<ToolPath>& paths) {
     for (Contour& loop : offset(around, distance, ClipperLib::jtRound, 250))
         if (signed_area({loop}) > 0) paths.push_back({TrackKind::skirt, width, true, std::move(loop)});
@@ -45,16 +46,13 @@ std::vector<ToolPath> skirt_and_brim(const Region& outline, const Settings& sett
     const Unit w = tracks.width_on(0, settings.nozzle);
     const double width = static_cast<double>(w);
     const int brim = brim_loops(w, tracks);
-    Region outer;
-    for (const Contour& c : outline)
-        if (signed_area({c}) > 0) outer.push_back(c);
-    if (outer.empty()) return paths;
+    if (outline.empty()) return paths;
     if (tracks.skirt_loops > 0) {
-        const Region hull{hull_of(outer)};
+        const Region hull{hull_of(outline)};
         for (int k = tracks.skirt_loops; k-- > 0;)
             append_loops(hull, brim * width + static_cast<double>(tracks.skirt_distance) + (k + 0.5) * width, w, paths);
     }
-    for (int k = brim; k-- > 0;) append_loops(outer, (k + 0.5) * width, w, paths);
+    for (int k = brim; k-- > 0;) append_loops(outline, (k + 0.5) * width, w, paths);
     return paths;
 }
 

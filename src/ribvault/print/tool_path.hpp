@@ -13,7 +13,7 @@ enum class TrackKind {
     inner_perimeter,
     cover,
     support,
-    thin_wall,  ///< a part of the slice narrower than one track, as a track of its own width
+    thin_wall,  ///< a part of the slice or of the shell narrower than one track, as a track of its own width
     skirt       ///< skirt and brim: beside the object, never among the paths of a layer
 };
 
@@ -46,6 +46,7 @@ struct LayerPaths {
     Unit gap_length = 0;    ///< what these gaps take from the supports' length, in lattice units
     int thin_places = 0;    ///< places of the slice too narrow for any track: they are not printed
     double thin_area = 0;   ///< their area in square lattice units
+    double unfilled_area = 0;  ///< of the shell inside the perimeters that is too narrow for any track, the same
 };
 
 }  // namespace ribvault

@@ -22,6 +22,7 @@ void sum_up(RunReport& report) {
         t.thin_wall_length_mm += layer.thin_wall_length_mm;
         t.thin_places += layer.thin_places;
         t.thin_area_mm2 += layer.thin_area_mm2;
+        t.unfilled_area_mm2 += layer.unfilled_area_mm2;
         t.extruded_mm3 += layer.extruded_mm3;
         t.prime_surplus_mm3 += layer.prime_surplus_mm3;
         t.travels += layer.travels;

@@ -1,0 +1,117 @@
+"""Printer profiles, tracks and the G-code's own arithmetic, as a user meets them. PROGRAM from RIBVAULT."""
+import json
+import math
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["RIBVAULT"]
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+CUBE = ROOT / "experiments/models/cube20.stl"
+TEMPERATURES = "nozzle_temperature = 200\nbed_temperature = 50\n"
+
+
+class Printing(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def run_program(self, *arguments):
+        return subprocess.run([PROGRAM, "generate", CUBE, "-o", "a.gcode", "--report", "a.json", *map(str, arguments)], cwd=self.folder,
+                              capture_output=True, text=True)
+
+    def gcode(self, *arguments):
+        done = self.run_program(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return (self.folder / "a.gcode").read_text(), json.loads((self.folder / "a.json").read_text())
+
+    def test_the_report_is_what_the_file_does(self):
+        for options in ([], ["--covers", "concentric", "--perimeters", "2", "--brim", "3", "--skirt", "2", "--first-layer-width", "0.5"],
+                        ["--shell-first", "--seam", "nearest", "--retract-over", "0", "--covers", "monotonic"]):
+            text, report = self.gcode(*options)
+            along, pushed, retractions, x, y, travel = 0, 0, 0, 0, 0, 0
+            layers = text.split(";LAYER_CHANGE", 1)[1].split("; end of print")[0]
+            first = True
+            for line in layers.splitlines():
+                words = {w[0]: float(w[1:]) for w in line.split(";")[0].split()[1:]} if line.startswith("G") else {}
+                moves = "X" in words
+                if moves and "E" not in words:
+                    travel += 0 if first else math.hypot(words["X"] - x, words["Y"] - y)
+                    first = False
+                if moves:
+                    x, y = words["X"], words["Y"]
+                if "E" in words and not moves and words["E"] < 0:
+                    retractions += 1
+                    pushed += words["E"]
+                elif "E" in words and not moves and abs(words["E"]) >= 3:
+                    pushed += words["E"]
+                elif "E" in words:
+                    along += words["E"]
+            totals = report["totals"]
+            area = math.pi / 4 * 1.75 ** 2
+            self.assertAlmostEqual(along * area / totals["extruded_mm3"], 1, delta=0.001)
+            # The file's last retraction stays; the header's first one is primed in the first layer.
+            self.assertAlmostEqual(pushed * area, totals["prime_surplus_mm3"], delta=0.001)
+            self.assertEqual(retractions, totals["retractions"])
+            self.assertAlmostEqual(travel, totals["travel_mm"], delta=0.01)
+            self.assertEqual(totals["travels"], sum(layer["travels"] for layer in report["layers"]))
+            self.assertIn("; estimated printing time (normal mode) = ", text)
+
+    def test_profiles(self):
+        (self.folder / "mine.ini").write_text(TEMPERATURES + "flavour = klipper\nstart_gcode = START_PRINT BED={bed_temperature}\nend_gcode = END_PRINT\n")
+        text, report = self.gcode("--profile", "mine.ini", "--temperature", "190")
+        self.assertIn("\nSTART_PRINT BED=50\n", text)
+        self.assertIn("\nEND_PRINT\n", text)
+        self.assertIn("M109 S190", text)  # what is written out wins over the profile
+        self.assertEqual(report["printer"]["flavour"], "klipper")
+        for name in ("ultimaker2", "ultimaker3", "prima-p120", "cr-10", "microdelta"):
+            text, report = self.gcode("--printer", name)
+            xs = [float(x) for x in re.findall(r"^G1 X(-?[0-9.]+)", text, re.M)]
+            middle = 0 if report["printer"]["origin_at_centre"] else report["printer"]["bed_mm"][0] / 2
+            self.assertAlmostEqual((min(xs) + max(xs)) / 2, middle, delta=0.01)
+
+    def test_bad_profiles_are_refused_with_key_and_line(self):
+        for text, fragment in ((TEMPERATURES + "colour = red\n", "mine.ini:3: colour"), ("bed_temperature = 60\n", "nozzle_temperature: missing"),
+                               ("nozzle_temperature = hot\n", "mine.ini:1: nozzle_temperature: 'hot'")):
+            (self.folder / "mine.ini").write_text(text)
+            done = self.run_program("--profile", "mine.ini")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(fragment, done.stderr)
+            self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        self.assertEqual(self.run_program("--profile", "none.ini").returncode, 3)
+        self.assertEqual(self.run_program("--printer", "none").returncode, 2)
+
+    def test_import_says_what_it_ignored(self):
+        (self.folder / "prusa.ini").write_text("layer_height = 0.3\nperimeters = 2\nfill_density = 20%\nbed_shape = 0x0,200x0,200x180,0x180\n")
+        done = self.run_program("--import", "prusa.ini", "--perimeters", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("3 settings taken, 1 ignored: fill_density", done.stderr)
+        settings = json.loads((self.folder / "a.json").read_text())["settings"]
+        self.assertEqual(settings["layer_height_mm"], 0.3)
+        self.assertEqual(settings["perimeters"], 1)
+
+    def test_the_bed_is_checked_with_skirt_and_brim(self):
+        self.assertEqual(self.run_program("--bed", "24,24,30").returncode, 0)
+        done = self.run_program("--bed", "24,24,30", "--brim", "3")
+        self.assertEqual(done.returncode, 5)
+        self.assertIn("skirt and brim", done.stderr)
+        self.assertEqual(self.run_program("--printer", "microdelta", "--scale", "6").returncode, 5)
+
+    def test_thumbnails(self):
+        text, _ = self.gcode("--thumbnails", "16x16,220x124")
+        self.assertEqual(re.findall(r"^; thumbnail begin (\d+x\d+) ", text, re.M), ["16x16", "220x124"])
+        self.assertNotIn("thumbnail", self.gcode("--thumbnails", "none")[0])
+        self.assertEqual(self.run_program("--thumbnails", "big").returncode, 2)
+
+    def test_the_same_bytes_for_any_number_of_threads(self):
+        options = ["--covers", "monotonic", "--seam", "nearest", "--brim", "2", "--printer", "cr-10"]
+        texts = {self.gcode(*options, "--threads", n)[0] for n in (1, 2, 7)}
+        self.assertEqual(len(texts), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
