@@ -65,7 +65,7 @@ Slicer::Slicer(const Mesh& mesh, const Placement& placement, const Settings& set
     for (std::size_t v = 0; v < vertices; ++v) {
         const double z = height(v), quotient = (z - base_d) / step_d;
         std::int64_t count = static_cast<std::int64_t>(std::floor(std::clamp(quotient, 0.0, 1e9))) + 1;  // planes 0 .. floor
-        // base_d, step_d, the difference and the quotient each round once, relative error 2^-53: together less than this.
+        // base_d and step_d are cut off (2^-52), difference and quotient rounded (2^-53): together less than this.
         const double bound = 0x1p-49 * ((std::fabs(z) + std::fabs(base_d)) / step_d + std::fabs(quotient) + 1);
         if (quotient < 1.5 || std::fabs(quotient - std::round(quotient)) <= bound) {
             const Rational exact(z);
