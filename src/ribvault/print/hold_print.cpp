@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/exact/point_location.hpp"
@@ -67,15 +68,18 @@ public:
         lay_tracks();
         if (!above_) return std::move(held_);
         outside_ = stretches_outside(*above_, held_.printed);  // the outline stays the same
-        std::vector<OpenStretch> open = look({});
+        std::vector<std::size_t> all(above_->tracks.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        std::vector<OpenStretch> open = look(all);
         bool close = true;
         for (int round = 0; settings_.gaps != Gaps::paper && !open.empty() && round < rounds; ++round) {
             close = close && close_gaps(open) > 0;
             if (!close) patch(open);
             lay_tracks();
             // More material below leaves what was held up as it was.
-            std::vector<char> still(above_->tracks.size(), 0);
-            for (const OpenStretch& stretch : open) still[stretch.track] = 1;
+            std::vector<std::size_t> still;
+            for (const OpenStretch& stretch : open)
+                if (still.empty() || still.back() != stretch.track) still.push_back(stretch.track);
             open = look(still);
         }
         measure_outside();
@@ -94,14 +98,15 @@ private:
         held_.printed = printed_layer(held_.plan);
     }
 
-    /// What of the judged tracks above (all: empty) inside the outline is not held up.
-    std::vector<OpenStretch> look(std::vector<char> judged) {
+    /// What of these tracks above (indices, increasing) inside the outline is not held up.
+    std::vector<OpenStretch> look(const std::vector<std::size_t>& which) {
         PrintedOptions options;
         options.regions = false, options.stretches = true;
-        options.judged = std::move(judged);
-        PrintedLayer below = held_.printed;
+        PrintedLayer upper, below = held_.printed;
+        for (const std::size_t k : which) upper.tracks.push_back(above_->tracks[k]);
         below.tracks.insert(below.tracks.end(), outside_.begin(), outside_.end());
-        PrintedVerdict inside = verify_printed(*above_, below, rho_, options);
+        PrintedVerdict inside = verify_printed(upper, below, rho_, options);
+        for (OpenStretch& stretch : inside.stretches) stretch.track = which[stretch.track];
         PrintVerdict& verdict = held_.verdict;
         verdict.supported = inside.supported;
         verdict.stages += inside.stages;
@@ -130,18 +135,29 @@ private:
         return total;
     }
 
-    /// Branches that begin near what is open reach their junction from now on. How many are new.
+    /// Branches whose gap may be what lets something hang reach their junction from now on. How many walls are new.
     int close_gaps(const std::vector<OpenStretch>& open) {
+        // What hangs lies within half a width of its stretch, and what would hold it within r + ρ of that.
+        struct Place {
+            Segment segment;
+            double reach;
+        };
+        std::vector<Place> places;
+        for (const OpenStretch& stretch : open) {
+            const PrintedTrack& track = above_->tracks[stretch.track];
+            places.push_back({place_of(track, stretch), track.width.get_d() / 2 * units_per_mm + static_cast<double>(settings_.nozzle / 2 + settings_.support_radius + 4)});
+        }
         int closed = 0;
         for (auto [e, end] = edges(forest_); e != end; ++e) {
             if (forest_[*e].to_junction) continue;
-            const Segment wall{forest_[source(*e, forest_)].at, forest_[target(*e, forest_)].at};
-            for (const OpenStretch& stretch : open) {
-                const PrintedTrack& track = above_->tracks[stretch.track];
-                // What hangs is within half a width of the stretch; the part in the gap that would hold it, within r + ρ of
-                // that; and the wall begins at most one width before.
-                const double reach = track.width.get_d() / 2 * units_per_mm + static_cast<double>(settings_.nozzle / 2 + settings_.support_radius + settings_.nozzle);
-                if (distance(wall, place_of(track, stretch)) > reach) continue;
+            for (const auto& [from, to] : {std::pair(source(*e, forest_), target(*e, forest_)), std::pair(target(*e, forest_), source(*e, forest_))}) {
+                if (out_degree(from, forest_) < 2 && !forest_[from].root) continue;
+                // A gap takes the first width of the wall at most.
+                const Point a = forest_[from].at, d = forest_[to].at - a;
+                const double l = length(d), share = l > static_cast<double>(settings_.nozzle) ? static_cast<double>(settings_.nozzle) / l : 1;
+                const Segment gap{a, {a.x + round_to_lattice(share * static_cast<double>(d.x)), a.y + round_to_lattice(share * static_cast<double>(d.y))}};
+                if (!std::any_of(places.begin(), places.end(), [&](const Place& p) { return near(gap, p.segment, p.reach) && distance(gap, p.segment) <= p.reach; }))
+                    continue;
                 forest_[*e].to_junction = true;
                 ++closed;
                 break;
@@ -149,6 +165,12 @@ private:
         }
         held_.closed_gaps += closed;
         return closed;
+    }
+    static bool near(const Segment& s, const Segment& t, double reach) {
+        const auto apart = [reach](Unit a, Unit b, Unit c, Unit d) {
+            return static_cast<double>(std::min(c, d) - std::max(a, b)) > reach || static_cast<double>(std::min(a, b) - std::max(c, d)) > reach;
+        };
+        return !apart(s.a.x, s.b.x, t.a.x, t.b.x) && !apart(s.a.y, s.b.y, t.a.y, t.b.y);
     }
 
     void patch(const std::vector<OpenStretch>& open) {

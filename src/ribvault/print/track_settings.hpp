@@ -25,7 +25,7 @@ struct TrackSettings {
     CoverPattern covers = CoverPattern::zigzag;
     Seam seam = Seam::aligned;
     bool thin_walls = true;          ///< a track of its own width where the slice is narrower than one track
-    bool fill_gaps = false;          ///< the same for strips of the shell between perimeters, covers and cavity
+    bool fill_gaps = true;           ///< the same for strips of the shell between perimeters, covers and cavity
     Unit first_layer_width = 0;      ///< of perimeters and covers on layer 0; at least d; 0: d
     int skirt_loops = 0;             ///< around everything on layer 0
     Unit skirt_distance = 300000;    ///< from the object, or its brim, to the skirt
