@@ -14,7 +14,6 @@ struct LayerRules {
     std::optional<Rational> longest_bridge;  ///< mm
     double min_area = 0;                     ///< mm²
     std::vector<char> judged;                ///< per feature
-    bool outlines = false;                   ///< trace the boundaries of regions
 };
 
 /// What a feature has in one layer.

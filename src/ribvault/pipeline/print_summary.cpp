@@ -80,7 +80,7 @@ void describe_verdict(std::string& text, const PrintReport& r) {
             const HangingRegion* worst = nullptr;
             for (const HangingRegion& region : layer.regions) {
                 area += region.area_mm2;
-                if (worst == nullptr || region.area_mm2.hi > worst->area_mm2.hi) worst = &region;
+                if (worst == nullptr || region.area_mm2.middle() > worst->area_mm2.middle()) worst = &region;
             }
             if (worst == nullptr) continue;
             print(text, "  layer %d (z %.2f): %s mm2 in %zu regions, the largest at x %.3f y %.3f, line %lld\n", layer.layer, layer.z_mm,

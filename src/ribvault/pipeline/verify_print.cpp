@@ -154,7 +154,7 @@ private:
                                             : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
         report_.threads = static_cast<int>(limit);
-        const LayerRules rules{radius_, job_.longest_bridge, report_.min_area_mm2, judged_, job_.svg || job_.html};
+        const LayerRules rules{radius_, job_.longest_bridge, report_.min_area_mm2, judged_};
         const int total = static_cast<int>(print_.layers.size());
         std::vector<JudgedLayer> judged(print_.layers.size());
         std::mutex reporting;
