@@ -23,7 +23,7 @@ struct Farthest {
 /// The greatest distance along the stretch [from, to] (mm from a) of a track's centre line.
 Farthest farthest_on_line(const PreparedTrack& track, double from, double to, const LowerTracks& lower);
 
-/// The greatest distance over the stadiums of `pieces`, to about 1e-4 of it or as far as about `effort` cells go.
+/// The greatest distance over the stadiums of `pieces`, to about 1e-3 of it or as far as about `effort` cells go.
 Farthest farthest_in(std::span<const PreparedTrack> pieces, const LowerTracks& lower, int effort);
 
 }  // namespace ribvault::verify
