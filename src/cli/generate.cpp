@@ -26,6 +26,13 @@ void add_length(CLI::App* command, const std::string& name, Target& target, cons
         name, [&target, name](const std::string& text) { target = parse_length(text, name); }, help)->type_name("MM");
 }
 
+void choose_strategy(const std::string& name, Settings& s) {
+    const bool thrifty = name == "thrifty";
+    s.propagation = thrifty ? Propagation::shrink : Propagation::erode_straighten;
+    s.order = thrifty ? Order::doubling : Order::distance;
+    s.trim = thrifty;
+}
+
 void add_geometry(CLI::App* command, Written& w) {
     Settings& s = w.job.settings;
     command->get_formatter()->column_width(38);
@@ -45,6 +52,13 @@ void add_geometry(CLI::App* command, Written& w) {
     supports->add_option_function<std::string>(
         "--overlap", [&w](const std::string& t) { w.overlap = parse_rational(t, "--overlap"); },
         "share of a track that must rest on the layer below; rho = (1 - R) d (default 0.5)")->type_name("R")->excludes(radius);
+    supports->add_option_function<std::string>(
+        "--strategy", [&s](const std::string& name) { choose_strategy(name, s); },
+        "paper: Sections 4.1 to 4.3; thrifty: less material under the same proof (default paper)")
+        ->check(CLI::IsMember({"paper", "thrifty"}))->type_name("NAME");
+    supports->add_flag_function("--no-shrink", [&s](std::int64_t) { s.propagation = Propagation::erode_straighten; }, "thrifty without its descent of length");
+    supports->add_flag_function("--no-trim", [&s](std::int64_t) { s.trim = false; }, "thrifty without trimming new walls");
+    supports->add_flag_function("--no-doubling", [&s](std::int64_t) { s.order = Order::distance; }, "thrifty with the paper's order of points");
     add_length(supports, "--erosion-step", w.erosion_step, "what a free tip loses per layer (default: rho)");
     supports->add_flag("--no-straighten", w.no_straighten, "leave out the straightening operator");
     add_length(supports, "--straighten-step", w.straighten_step, "how far a vertex moves per layer (default: rho)");
@@ -106,6 +120,7 @@ void complete(Written& w) {
     s.first_layer_height = w.first_layer_height.value_or(s.layer_height);
     s.support_radius = w.support_radius.value_or(s.nozzle / 2);
     if (w.overlap) {
+        if (*w.overlap < 0 || *w.overlap >= 1) throw Error(ErrorKind::usage, "--overlap must be a share of a track's width, from 0 to less than 1");
         const Rational radius = (1 - *w.overlap) * s.nozzle;
         if (radius.get_den() != 1) throw Error(ErrorKind::usage, "--overlap: (1 - R) times the nozzle does not lie on the 10 nm lattice; use fewer decimals");
         s.support_radius = radius.get_num().get_si();

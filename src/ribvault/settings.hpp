@@ -8,6 +8,17 @@
 
 namespace ribvault {
 
+/// How supports propagate from layer to layer.
+enum class Propagation {
+    erode_straighten,  ///< Section 4.1: tips are eroded, chains straightened
+    shrink             ///< a descent of the supports' whole length under the same limit (vault/shrink_supports.hpp)
+};
+/// Which unsupported point is next (Section 4.3); ties at random by the seed.
+enum class Order {
+    distance,  ///< the nearest to B_i
+    doubling   ///< the nearest by its distance to B_i rounded down to ρ, 2ρ, 4ρ, ...: at random within such a band
+};
+
 /// What decides the geometry. Lengths in lattice units (10 nm); symbols are the paper's.
 struct Settings {
     Unit layer_height = 20000;        ///< h
@@ -17,6 +28,10 @@ struct Settings {
     int perimeters = 1;               ///< p
     int top_layers = 1;               ///< k above a layer
     int bottom_layers = 1;            ///< k below a layer
+
+    Propagation propagation = Propagation::erode_straighten;
+    Order order = Order::distance;
+    bool trim = false;  ///< new walls end as early as what they are there for allows (vault/trim_walls.hpp)
 
     Unit erosion_step = 20000;     ///< how much a free tip loses per layer (Section 4.1); at most ρ keeps equation (1)
     bool straighten = true;        ///< Section 4.1, straightening operator

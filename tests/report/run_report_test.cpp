@@ -46,6 +46,8 @@ void violations(const Json& schema, const Json& value, const Json& root, const s
         return;
     }
     if (schema.contains("const") && value != schema["const"]) found.push_back(at + ": not the constant");
+    if (schema.contains("enum") && std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
+        found.push_back(at + ": " + value.dump() + " is none of the values");
     if (schema.contains("type")) {
         const Json& type = schema["type"];
         bool fits = type.is_string() && has_type(value, type.get<std::string>());

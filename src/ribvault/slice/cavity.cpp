@@ -26,15 +26,17 @@ bool within_radius(const Segment& piece, const NearestSegment& tree, Unit radius
            within_radius({middle, piece.b}, tree, radius, depth + 1);
 }
 
-/// Is the sliver there only because `deep` is taken with the slack? The edges of C_{i+1} along it, not their roundings in
-/// the sliver, must be within ρ of the shell.
+/// Is the sliver there only because `deep` is taken with the slack? Its edges must be within ρ of the shell, but those that
+/// follow an edge of C_{i+1} a rounding inside it (`inner` leaves that much of the empty cavity in the sliver): there the
+/// edge of C_{i+1} itself must be.
 bool is_tie(const Region& sliver, const NearestSegment& shell, const NearestSegment& edges_above, Unit radius) {
     if (edges_above.empty()) return false;
+    constexpr Unit margin = static_cast<Unit>(2 * rounding);  // `inner` and its corners lie no farther from C_{i+1}'s edges
     for (const Segment& e : edges_of(sliver)) {
         Box box;
         box.add(e.a), box.add(e.b);
-        box.grow(static_cast<Unit>(rounding));
-        bool tie = within_radius(e, shell, radius);
+        box.grow(margin);
+        bool tie = within_radius(e, shell, radius) || within_radius(e, edges_above, margin);
         edges_above.visit(box, [&](std::uint32_t k) { tie = tie && within_radius(edges_above.segments()[k], shell, radius); });
         if (!tie) return false;
     }

@@ -7,7 +7,7 @@ namespace ribvault {
 namespace {
 
 double approximate_distance(const ExactPoint& a, const ExactPoint& b) {
-    return std::hypot(CGAL::to_double(a.x()) - CGAL::to_double(b.x()), CGAL::to_double(a.y()) - CGAL::to_double(b.y()));
+    return std::hypot(approximate(a.x()) - approximate(b.x()), approximate(a.y()) - approximate(b.y()));
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ ClosedGaps close_gaps(std::vector<ExactContour> chains, int layer, Unit max_gap)
         next[p.from] = p.to, previous[p.to] = p.from;
         if (p.distance > 0) {
             const ExactPoint& at = chains[p.from].back();
-            result.closings.push_back({layer, CGAL::to_double(at.x()), CGAL::to_double(at.y()), p.distance});
+            result.closings.push_back({layer, approximate(at.x()), approximate(at.y()), p.distance});
         }
     }
     std::vector<char> used(chains.size(), 0);
@@ -60,7 +60,7 @@ ClosedGaps close_gaps(std::vector<ExactContour> chains, int layer, Unit max_gap)
         for (std::size_t b = 0; b < chains.size(); ++b)
             if (previous[b] == none) nearest = std::min(nearest, approximate_distance(chains[a].back(), chains[b].front()));
         const ExactPoint& at = chains[a].back();
-        result.open.push_back({layer, CGAL::to_double(at.x()), CGAL::to_double(at.y()), nearest});
+        result.open.push_back({layer, approximate(at.x()), approximate(at.y()), nearest});
     }
     return result;
 }

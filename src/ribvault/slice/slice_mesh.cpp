@@ -220,7 +220,7 @@ void drop_repeated(ExactContour& contour, bool closed) {
 Contour rounded(const ExactPolygon& polygon) {
     Contour contour;
     for (auto v = polygon.vertices_begin(); v != polygon.vertices_end(); ++v) {
-        const Point p{round_to_lattice(CGAL::to_double(v->x()) * units_per_mm), round_to_lattice(CGAL::to_double(v->y()) * units_per_mm)};
+        const Point p{round_to_lattice(approximate(v->x()) * units_per_mm), round_to_lattice(approximate(v->y()) * units_per_mm)};
         if (contour.empty() || contour.back() != p) contour.push_back(p);
     }
     while (contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();

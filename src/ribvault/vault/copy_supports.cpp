@@ -51,8 +51,9 @@ public:
         for (std::size_t v = 0; v < inside_.size(); ++v) {
             const bool dot = out_degree(v, above_) == 0;
             if (dot && (inside_[v] || !shell_holds_tracks_)) result_.inherited.push_back({above_[v].at, above_[v].at});
-            if (above_[v].root && inside_[v] && (dot || vertex_[v] >= 0)) prolong(v);
+            if (above_[v].root && inside_[v] && (dot || vertex_[v] >= 0) && !prolong(v, false)) barred_.push_back(v);
         }
+        for (const std::size_t v : barred_) prolong(v, true);
         return std::move(result_);
     }
 
@@ -70,13 +71,14 @@ private:
     void copy_edge(std::size_t a, std::size_t b, std::int32_t index) {
         const Segment s{above_[a].at, above_[b].at};
         find_meetings(s, boundary_, meetings_);
+        // Even a wall inside the shell may reach into the cavity by more than the shell holds up.
+        if (!shell_holds_tracks_) result_.inherited.push_back(s);
         if (meetings_.empty()) {
             if (!inside_[a]) return;
             add(vertex(a), vertex(b), index);
-            result_.inherited.push_back(s);
+            if (shell_holds_tracks_) result_.inherited.push_back(s);
             return;
         }
-        if (!shell_holds_tracks_) result_.inherited.push_back(s);
         // Between two meetings the wall is on one side; which, is read off at the rounded middle: what to keep of a wall
         // that runs along the shell within a rounding is a choice.
         for (std::size_t k = 0; k <= meetings_.size(); ++k) {
@@ -114,10 +116,12 @@ private:
         result_.forest[vertex(v)] = {place_root(nearest_point(at, edge), boundary_), true};
     }
 
-    void prolong(std::size_t v) {
+    /// Says no, for now, when v's own tree stands in the way. In the end such a root is given up, for its wall would cross the
+    /// tree, unless the tree has no other root.
+    bool prolong(std::size_t v, bool in_the_end) {
         SupportForest& forest = result_.forest;
         const std::size_t own = vertex(v);
-        if (forest[own].root) return;
+        if (forest[own].root) return true;
         const Point at = above_[v].at;
         const NearestSegment::Hit hit = boundary_.edges.nearest(at);
         const double distance = std::sqrt(hit.distance.value());
@@ -131,14 +135,21 @@ private:
             if (!meetings_.empty() && !crosses_walls({at, meetings_.front().on(ray)}, own)) {
                 forest[own].at = place_root(meetings_.front().on(ray), boundary_);
                 forest[own].root = true;
-                return;
+                return true;
             }
         }
         if (squared_length(foot - at) <= root_tolerance * root_tolerance) {
             forest[own] = {foot, true};
-            return;
+            return true;
         }
-        if (!join_wall({at, foot}, own)) add(add_vertex(SupportVertex{foot, true}, forest), own, -1);
+        const std::vector<char> own_tree = tree_of(own);
+        if (barred({at, foot}, own, own_tree)) {
+            if (!in_the_end) return false;
+            for (std::size_t w = 0; w < own_tree.size(); ++w)
+                if (own_tree[w] && forest[w].root) return true;
+        }
+        if (!join_wall({at, foot}, own, own_tree)) add(add_vertex(SupportVertex{foot, true}, forest), own, -1);
+        return true;
     }
 
     Segment wall(SupportForest::edge_descriptor e) const {
@@ -151,10 +162,8 @@ private:
         return false;
     }
 
-    /// When other walls stand in the way to the shell, the tree joins the nearest of them instead, if that is another tree:
-    /// this one then stands on the other's roots. Says no when the way is free, or only its own tree is in it.
-    bool join_wall(const Segment& way, std::size_t from) {
-        SupportForest& forest = result_.forest;
+    std::vector<char> tree_of(std::size_t from) const {
+        const SupportForest& forest = result_.forest;
         std::vector<char> own_tree(num_vertices(forest), 0);
         std::vector<std::size_t> open{from};
         own_tree[from] = 1;
@@ -164,6 +173,21 @@ private:
             for (auto [w, end] = adjacent_vertices(v, forest); w != end; ++w)
                 if (!own_tree[*w]) own_tree[*w] = 1, open.push_back(*w);
         }
+        return own_tree;
+    }
+    /// Is a wall of the same tree, elsewhere than at `from`, in the way?
+    bool barred(const Segment& way, std::size_t from, const std::vector<char>& own_tree) const {
+        const SupportForest& forest = result_.forest;
+        for (auto [e, end] = edges(forest); e != end; ++e)
+            if (own_tree[source(*e, forest)] && source(*e, forest) != from && target(*e, forest) != from && segments_touch(way, wall(*e)))
+                return true;
+        return false;
+    }
+
+    /// When other walls stand in the way to the shell, the tree joins the nearest of them instead, if that is another tree:
+    /// this one then stands on the other's roots. Says no when the way is free, or only its own tree is in it.
+    bool join_wall(const Segment& way, std::size_t from, const std::vector<char>& own_tree) {
+        SupportForest& forest = result_.forest;
         std::int64_t nearest = -1, index = 0;
         SquaredDistance nearest_distance{0, 1};
         SupportForest::edge_descriptor met;
@@ -195,6 +219,7 @@ private:
     bool shell_holds_tracks_;
     std::vector<std::int64_t> vertex_;
     std::vector<char> inside_;
+    std::vector<std::size_t> barred_;
     std::vector<Meeting> meetings_;
     CopiedSupports result_;
 };

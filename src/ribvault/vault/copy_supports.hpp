@@ -14,11 +14,12 @@ struct CopiedSupports {
 
 /// Clips every wall to C_i; where the clip cuts, a root is placed on the shell, so that a tree cut by an inner wall
 /// becomes two. A root left hanging inside C_i is prolonged: straight on when the shell is met within twice its distance,
-/// else to the nearest point of the shell, or to another tree's wall that stands in the way.
+/// else to the nearest point of the shell, or to another tree's wall that stands in the way; when the way is barred by
+/// its own tree, which has another root, it is a root no longer.
 /// A dot vanishes when its place is shell on this layer, and is prolonged like any root when it is not.
 ///
-/// shell_holds_tracks: ρ >= r, so that a wall inside the shell is held up by it over its whole width; otherwise walls that
-/// meet the boundary are inherited whole.
+/// shell_holds_tracks: ρ >= r, so that a wall inside the shell is held up by it over its whole width; otherwise walls
+/// in the shell and those that meet the boundary are inherited whole.
 CopiedSupports copy_supports(const SupportForest& above, const CavityBoundary& boundary, bool shell_holds_tracks);
 
 }  // namespace ribvault

@@ -4,11 +4,11 @@
 #include <queue>
 
 #include "ribvault/vault/growing_supports.hpp"
+#include "ribvault/vault/trim_walls.hpp"
+#include "ribvault/vault/unsupported_cells.hpp"
 
 namespace ribvault {
 namespace {
-
-constexpr Unit cell_pixels = 8;  // a cell holds 8 x 8 candidate points: one bit each
 
 /// Deterministic random number of a place: ties of Section 4.3 do not depend on the order of evaluation.
 std::uint64_t tie_of(Point p, std::uint64_t seed) {
@@ -21,13 +21,8 @@ std::uint64_t tie_of(Point p, std::uint64_t seed) {
     return z;
 }
 
-struct Cell {
-    Box box;
-    std::uint64_t pixels = 0;  ///< candidate points inside the unsupported region
-};
-
 struct Candidate {
-    SquaredDistance distance;  ///< to B_i; for a whole cell a lower bound
+    SquaredDistance distance;  ///< to B_i, or the lower end of its band; for a whole cell a lower bound
     std::uint64_t tie = 0;
     Point at;
     std::int64_t cell = -1;  ///< >= 0: this is a whole cell, not a point
@@ -48,71 +43,31 @@ public:
     Grower(SupportForest forest, const Region& unsupported, const CavityBoundary& boundary, std::uint64_t seed, const Settings& settings)
         : settings_(settings), boundary_(boundary), seed_(seed),
           radius_(static_cast<double>(settings.nozzle / 2 + settings.support_radius)), slack_(static_cast<double>(settings.slack)),
-          location_(edges_of(unsupported), cell_pixels * settings.sampling_pitch),
-          supports_(std::move(forest), boundary.location.box(), boundary, settings) {}
+          unsupported_(unsupported, settings), supports_(std::move(forest), boundary.location.box(), boundary, settings) {}
 
     SupportForest run() {
-        make_cells();
         add_pixels();
         for (std::vector<std::size_t> open = all_cells(); !open.empty(); open = add_between(open)) {
         }
+        if (settings_.trim) trim_walls(supports_, unsupported_, settings_);
         return supports_.take();
     }
 
 private:
-    void make_cells() {
-        const Unit pitch = settings_.sampling_pitch, size = cell_pixels * pitch;
-        const Box& box = location_.box();
-        const Unit x0 = floor_div(box.lo.x, size), x1 = floor_div(box.hi.x, size);
-        const Unit y0 = floor_div(box.lo.y, size), y1 = floor_div(box.hi.y, size);
-        std::vector<std::uint64_t> row(static_cast<std::size_t>(x1 - x0 + 1));
-        std::vector<std::pair<double, int>> crossings;
-        for (Unit cy = y0; cy <= y1; ++cy) {
-            std::fill(row.begin(), row.end(), 0);
-            for (Unit line = 0; line < cell_pixels; ++line) {
-                const Unit y = cy * size + line * pitch + pitch / 2;
-                crossings.clear();
-                location_.visit_crossings(y, [&](const Segment& e, int winding) {
-                    const double t = static_cast<double>(y - e.a.y) / static_cast<double>(e.b.y - e.a.y);
-                    crossings.push_back({static_cast<double>(e.a.x) + t * static_cast<double>(e.b.x - e.a.x), winding});
-                });
-                std::sort(crossings.begin(), crossings.end());
-                int winding = 0;
-                for (std::size_t k = 0; k + 1 < crossings.size(); ++k) {
-                    winding += crossings[k].second;
-                    if (winding == 0) continue;
-                    const Unit first = static_cast<Unit>(std::ceil((crossings[k].first - static_cast<double>(pitch / 2)) / static_cast<double>(pitch)));
-                    const Unit last = static_cast<Unit>(std::floor((crossings[k + 1].first - static_cast<double>(pitch / 2)) / static_cast<double>(pitch)));
-                    for (Unit px = first; px <= last; ++px) {
-                        const Unit cx = floor_div(px, cell_pixels);
-                        row[static_cast<std::size_t>(cx - x0)] |= std::uint64_t{1} << (line * cell_pixels + (px - cx * cell_pixels));
-                    }
-                }
-            }
-            for (Unit cx = x0; cx <= x1; ++cx) {
-                const Cell cell{{{cx * size, cy * size}, {(cx + 1) * size, (cy + 1) * size}}, row[static_cast<std::size_t>(cx - x0)]};
-                if (cell.pixels != 0 || location_.edge_meets(cell.box)) cells_.push_back(cell);
-            }
-        }
-    }
-
-    static Unit floor_div(Unit a, Unit b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
-    static Point centre(const Box& box) { return {(box.lo.x + box.hi.x) / 2, (box.lo.y + box.hi.y) / 2}; }
-    /// Upper bound of the distance from the centre to any point of the box.
-    static double half_diagonal(const Box& box) { return 0.5 * length(box.hi - box.lo) + 1; }
+    static double half_diagonal(const Box& box) { return UnsupportedCells::half_diagonal(box); }
 
     /// The first pass: the lattice's points, nearest to B_i first. Cells open only when their turn comes, and not at all
     /// when one wall already covers them. Contact at exactly r + ρ counts here: on a lattice it is the normal case.
     void add_pixels() {
         Queue queue;
-        for (std::size_t k = 0; k < cells_.size(); ++k) {
-            if (cells_[k].pixels == 0) continue;
-            const Point c = centre(cells_[k].box);
-            const double nearest = std::sqrt(boundary_.edges.nearest(c).distance.value()) - half_diagonal(cells_[k].box);
+        const std::vector<UnsupportedCells::Cell>& cells = unsupported_.cells();
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            if (cells[k].pixels == 0) continue;
+            const Point c = UnsupportedCells::centre(cells[k].box);
+            const double nearest = std::sqrt(boundary_.edges.nearest(c).distance.value()) - half_diagonal(cells[k].box);
             const auto bound = static_cast<std::int64_t>(std::max(0.0, nearest));
-            queue.push({{static_cast<Int128>(bound) * bound, 1}, 0, c, static_cast<std::int64_t>(k)});
+            queue.push({in_order({static_cast<Int128>(bound) * bound, 1}), 0, c, static_cast<std::int64_t>(k)});
         }
-        const Unit pitch = settings_.sampling_pitch;
         while (!queue.empty()) {
             const Candidate candidate = queue.top();
             queue.pop();
@@ -120,20 +75,29 @@ private:
                 if (!supports_.covers(candidate.at, radius_)) supports_.add_wall(candidate.at);
                 continue;
             }
-            const Cell& cell = cells_[static_cast<std::size_t>(candidate.cell)];
+            const UnsupportedCells::Cell& cell = cells[static_cast<std::size_t>(candidate.cell)];
             if (supports_.covers(candidate.at, radius_ - half_diagonal(cell.box))) continue;
-            for (Unit bit = 0; bit < cell_pixels * cell_pixels; ++bit) {
+            for (Unit bit = 0; bit < 64; ++bit) {
                 if (!(cell.pixels >> bit & 1)) continue;
-                const Point p{cell.box.lo.x + bit % cell_pixels * pitch + pitch / 2, cell.box.lo.y + bit / cell_pixels * pitch + pitch / 2};
+                const Point p = unsupported_.pixel(cell, bit);
                 if (!supports_.covers(p, radius_)) queue.push(point_candidate(p));
             }
         }
     }
 
-    Candidate point_candidate(Point p) const { return {boundary_.edges.nearest(p).distance, tie_of(p, seed_), p, -1}; }
+    Candidate point_candidate(Point p) const { return {in_order(boundary_.edges.nearest(p).distance), tie_of(p, seed_), p, -1}; }
+
+    /// What decides when a point at this distance to B_i is looked at.
+    SquaredDistance in_order(const SquaredDistance& distance) const {
+        if (settings_.order == Order::distance) return distance;
+        SquaredDistance band{0, 1};
+        for (Unit end = settings_.support_radius; compare({static_cast<Int128>(end) * end, 1}, distance) <= 0; end *= 2)
+            band.numerator = static_cast<Int128>(end) * end;
+        return band;
+    }
 
     std::vector<std::size_t> all_cells() const {
-        std::vector<std::size_t> open(cells_.size());
+        std::vector<std::size_t> open(unsupported_.cells().size());
         for (std::size_t k = 0; k < open.size(); ++k) open[k] = k;
         return open;
     }
@@ -145,7 +109,11 @@ private:
         std::vector<std::size_t> again;
         for (const std::size_t k : open) {
             const std::size_t before = queue.size();
-            examine(cells_[k].box, true, queue);
+            const Box& box = unsupported_.cells()[k].box;
+            unsupported_.find_uncovered(box, box, supports_, [&](Point p) {
+                queue.push(point_candidate(p));
+                return false;
+            });
             if (queue.size() != before) again.push_back(k);
         }
         for (; !queue.empty(); queue.pop())
@@ -153,28 +121,12 @@ private:
         return again;
     }
 
-    void examine(const Box& box, bool edges, Queue& queue) const {
-        const Point c = centre(box);
-        const double half = half_diagonal(box);
-        if (supports_.covers(c, radius_ - half)) return;
-        edges = edges && location_.edge_meets(box);
-        const Side side = location_.locate(c);
-        if (!edges && side == Side::outside) return;
-        if (!supports_.covers(c, radius_ - slack_) && (side != Side::outside || half <= slack_)) {
-            queue.push(point_candidate(c));
-            return;
-        }
-        for (const Box& part : {Box{box.lo, c}, Box{{c.x, box.lo.y}, {box.hi.x, c.y}}, Box{{box.lo.x, c.y}, {c.x, box.hi.y}}, Box{c, box.hi}})
-            examine(part, edges, queue);
-    }
-
     const Settings& settings_;
     const CavityBoundary& boundary_;
     std::uint64_t seed_;
     double radius_, slack_;
-    PointLocation location_;
+    UnsupportedCells unsupported_;
     GrowingSupports supports_;
-    std::vector<Cell> cells_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@ namespace ribvault {
 GrowingSupports::GrowingSupports(SupportForest forest, const Box& cavity_box, const CavityBoundary& boundary, const Settings& settings)
     : forest_(std::move(forest)), boundary_(boundary), settings_(settings),
       grid_(cavity_box, settings.nozzle, settings.nozzle / 2 + settings.support_radius) {
+    inherited_vertices_ = num_vertices(forest_);
     for (auto [e, end] = edges(forest_); e != end; ++e) enter(source(*e, forest_), target(*e, forest_));
     for (auto [v, end] = vertices(forest_); v != end; ++v)
         if (out_degree(*v, forest_) == 0) enter(*v, *v);
@@ -121,7 +122,7 @@ void GrowingSupports::add_wall(Point p) {
                     junctions.end());
     for (const auto& [distance, v] : junctions)
         if (free_way(p, v)) {
-            connect(add_vertex(SupportVertex{p, false}, forest_), v);
+            add_tip(p, v);
             return;
         }
     std::size_t to;
@@ -131,7 +132,24 @@ void GrowingSupports::add_wall(Point p) {
         const Point foot = nearest_point(p, boundary_.edges.segments()[shell.index]);
         to = add_vertex(SupportVertex{place_root(foot, boundary_), true}, forest_);
     }
-    connect(add_vertex(SupportVertex{p, false}, forest_), to);
+    add_tip(p, to);
+}
+
+void GrowingSupports::add_tip(Point p, std::size_t joint) {
+    const std::size_t tip = add_vertex(SupportVertex{p, false}, forest_);
+    connect(tip, joint);
+    new_walls_.push_back({tip, joint, static_cast<std::uint32_t>(walls_.size() - 1)});
+}
+
+SupportForest GrowingSupports::take() {
+    if (!settings_.trim) return std::move(forest_);
+    // Vertices whose walls were taken away again go; dots from above stay.
+    SupportForest kept;
+    std::vector<std::size_t> place(num_vertices(forest_));
+    for (std::size_t v = 0; v < place.size(); ++v)
+        if (out_degree(v, forest_) > 0 || v < inherited_vertices_) place[v] = add_vertex(forest_[v], kept);
+    for (auto [e, end] = edges(forest_); e != end; ++e) add_edge(place[source(*e, forest_)], place[target(*e, forest_)], kept);
+    return kept;
 }
 
 }  // namespace ribvault

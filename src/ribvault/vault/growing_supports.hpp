@@ -22,8 +22,30 @@ public:
     /// Precondition: p lies strictly inside the cavity. Postcondition: covers(p, 0) up to rounding.
     void add_wall(Point p);
 
+    /// A wall that add_wall added, from its new vertex to where it joined.
+    struct NewWall {
+        std::size_t vertex, joint;
+        std::uint32_t index;
+    };
+    const std::vector<NewWall>& new_walls() const { return new_walls_; }
+    /// Is the wall there, and nothing joined to its new vertex?
+    bool is_free(const NewWall& wall) const { return walls_[wall.index].alive && out_degree(wall.vertex, forest_) == 1; }
+    Segment segment_of(const NewWall& wall) const { return {forest_[wall.joint].at, forest_[wall.vertex].at}; }
+    void remove(const NewWall& wall) {
+        walls_[wall.index].alive = false;
+        remove_edge(wall.vertex, wall.joint, forest_);
+    }
+    /// Puts it back, shortened to a share of `whole`.
+    void restore(const NewWall& wall, const Segment& whole, double share) {
+        const Point d = whole.b - whole.a;
+        forest_[wall.vertex].at = {whole.a.x + round_to_lattice(share * static_cast<double>(d.x)),
+                                  whole.a.y + round_to_lattice(share * static_cast<double>(d.y))};
+        walls_[wall.index].alive = true;
+        add_edge(wall.vertex, wall.joint, forest_);
+    }
+
     /// The supports; invalidates the object.
-    SupportForest take() { return std::move(forest_); }
+    SupportForest take();
     int added() const { return added_; }
 
 private:
@@ -34,9 +56,12 @@ private:
     Segment segment(std::uint32_t w) const { return {forest_[walls_[w].a].at, forest_[walls_[w].b].at}; }
     void enter(std::size_t a, std::size_t b);
     void connect(std::size_t a, std::size_t b);
+    void add_tip(Point p, std::size_t joint);
     bool free_way(Point from, std::size_t to) const;
     std::size_t split(std::uint32_t wall, Point near);
 
+    std::vector<NewWall> new_walls_;
+    std::size_t inherited_vertices_ = 0;
     SupportForest forest_;
     const CavityBoundary& boundary_;
     const Settings& settings_;

@@ -4,6 +4,7 @@
 #include "ribvault/vault/detect_unsupported.hpp"
 #include "ribvault/vault/erode_supports.hpp"
 #include "ribvault/vault/grow_supports.hpp"
+#include "ribvault/vault/shrink_supports.hpp"
 #include "ribvault/vault/straighten_supports.hpp"
 
 namespace ribvault {
@@ -27,11 +28,22 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         const CavityBoundary boundary = prepare_boundary(cavity.region);
         const bool shell_holds_tracks = settings.support_radius >= settings.nozzle / 2;
         CopiedSupports copied = copy_supports(above, boundary, shell_holds_tracks);
-        ErodedSupports eroded = erode_supports(copied.forest, settings.erosion_step);
-        for (std::size_t e = 0; e < copied.origin.size(); ++e)
-            if (eroded.survives[e] && copied.origin[e] >= 0) continues[static_cast<std::size_t>(copied.origin[e])] = 1;
-        SupportForest propagated = std::move(eroded.forest);
-        if (settings.straighten) {
+        SupportForest propagated;
+        const auto note_continued = [&](const std::vector<char>& survives) {
+            for (std::size_t e = 0; e < copied.origin.size(); ++e)
+                if (survives[e] && copied.origin[e] >= 0) continues[static_cast<std::size_t>(copied.origin[e])] = 1;
+        };
+        ErodedSupports eroded;
+        if (settings.propagation == Propagation::shrink) {
+            ShrunkSupports shrunk = shrink_supports(copied.forest, boundary, settings.erosion_step);
+            note_continued(shrunk.survives);
+            propagated = shrunk.left_cavity ? clip_again(shrunk.forest, boundary) : std::move(shrunk.forest);
+        } else {
+            eroded = erode_supports(copied.forest, settings.erosion_step);
+            note_continued(eroded.survives);
+            propagated = std::move(eroded.forest);
+        }
+        if (settings.propagation == Propagation::erode_straighten && settings.straighten) {
             StraightenedSupports straightened = straighten_supports(propagated, eroded.pinned, boundary, settings.straighten_step);
             result.blocked = straightened.blocked;
             propagated = straightened.left_cavity ? clip_again(straightened.forest, boundary) : std::move(straightened.forest);

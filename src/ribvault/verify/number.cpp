@@ -16,11 +16,12 @@ Vertex lattice_vertex(Point p) {
 
 Vertex slice_vertex(const ExactKernel::Point_2& p) {
     const auto scaled = [](const ExactKernel::FT& a) {
-        const std::pair<double, double> mm = CGAL::to_interval(a);
+        const std::pair<double, double> mm = tight_enclosure(a);
         return Interval(mm.first, mm.second) * Interval(static_cast<double>(units_per_mm));
     };
     Vertex v;
     v.x = scaled(p.x()), v.y = scaled(p.y());
+    // Each end is off by one rounding of the product, half the width 2^-52 before it: the middle is within 2^-50.
     v.cx = (v.x.inf() + v.x.sup()) / 2, v.cy = (v.y.inf() + v.y.sup()) / 2;
     v.slice = &p;
     return v;

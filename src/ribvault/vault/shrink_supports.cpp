@@ -1,0 +1,391 @@
+#include "ribvault/vault/shrink_supports.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "ribvault/vault/segment_grid.hpp"
+
+namespace ribvault {
+namespace {
+
+constexpr int sweeps = 10;
+
+struct Vec {
+    double x = 0, y = 0;
+};
+Vec vec(Point p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
+Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y}; }
+Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y}; }
+Vec operator*(double t, Vec a) { return {t * a.x, t * a.y}; }
+double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y; }
+double norm(Vec a) { return std::sqrt(dot(a, a)); }
+Point rounded(Vec a) { return {round_to_lattice(a.x), round_to_lattice(a.y)}; }
+
+/// Do two walls meet otherwise than at a shared end?
+bool collide(const Segment& s, const Segment& t) {
+    if (!segments_touch(s, t)) return false;
+    const bool shared = s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b;
+    return !shared || segments_cross(s, t);
+}
+
+class Shrinker {
+public:
+    Shrinker(const SupportForest& forest, const CavityBoundary& boundary, Unit step)
+        : boundary_(boundary), step_(step), grid_(bounds(forest), units_per_mm, step + 2) {
+        for (auto [v, end] = vertices(forest); v != end; ++v) nodes_.push_back({forest[*v].at, forest[*v].root, {forest[*v].at}, {}});
+        for (auto [e, end] = edges(forest); e != end; ++e) add_wall(source(*e, forest), target(*e, forest));
+        input_walls_ = walls_.size();
+    }
+
+    ShrunkSupports run() {
+        cut_between_roots();
+        zip_corners();
+        for (int k = 0; k < sweeps; ++k) {
+            bool moved = false;
+            for (std::size_t v = 0; v < nodes_.size(); ++v)
+                if (!nodes_[v].gone && !nodes_[v].walls.empty()) moved = improve(v) || moved;
+            if (!moved) break;
+        }
+        return finish();
+    }
+
+private:
+    struct Node {
+        Point at;
+        bool root;
+        std::vector<Point> from;  ///< where the points that are here now were: all within step
+        std::vector<std::uint32_t> walls;
+        bool gone = false;
+    };
+    struct Wall {
+        std::size_t a, b;
+        bool alive = true;
+    };
+
+    static Box bounds(const SupportForest& forest) {
+        Box box;
+        for (auto [v, end] = vertices(forest); v != end; ++v) box.add(forest[*v].at);
+        if (box.empty()) box.add({0, 0});
+        return box;
+    }
+    Segment segment(const Wall& w) const { return {nodes_[w.a].at, nodes_[w.b].at}; }
+    std::size_t other(std::uint32_t w, std::size_t v) const { return walls_[w].a == v ? walls_[w].b : walls_[w].a; }
+
+    void add_wall(std::size_t a, std::size_t b) {
+        const auto id = static_cast<std::uint32_t>(walls_.size());
+        walls_.push_back({a, b});
+        nodes_[a].walls.push_back(id);
+        nodes_[b].walls.push_back(id);
+        grid_.insert(id, segment(walls_.back()));
+    }
+
+    bool reachable(const Node& node, Point p) const {
+        return std::all_of(node.from.begin(), node.from.end(), [&](Point f) { return squared_length(p - f) <= step_ * step_; });
+    }
+
+    /// Would v's walls collide with others if v were at p? `merged`: a neighbour that takes v in, or none.
+    bool collides(std::size_t v, Point p, std::size_t merged) const {
+        for (const std::uint32_t w : nodes_[v].walls) {
+            const std::size_t u = other(w, v);
+            if (u == merged) continue;
+            const Segment s{p, nodes_[u].at};
+            if (s.a == s.b) return true;
+            Box box;
+            box.add(s.a), box.add(s.b);
+            bool hit = false;
+            grid_.visit(box, [&](std::uint32_t k) {
+                if (hit || !walls_[k].alive || k == w) return;
+                const Wall& o = walls_[k];
+                if (o.a == v || o.b == v) {
+                    // Both end in v: they may not run over each other.
+                    const std::size_t x = o.a == v ? o.b : o.a;
+                    if (x == merged) return;
+                    const Segment t{p, nodes_[x].at};
+                    hit = orientation(p, nodes_[u].at, nodes_[x].at) == 0 && t.a != t.b && ahead(p, nodes_[u].at, nodes_[x].at);
+                    return;
+                }
+                hit = collide(s, segment(o));
+            });
+            if (hit) return true;
+        }
+        return false;
+    }
+    static bool ahead(Point p, Point q, Point r) {
+        const Vec a = vec(q) - vec(p), b = vec(r) - vec(p);
+        return dot(a, b) > 0;
+    }
+
+    /// Where v wants to be: the place between its neighbours that makes its walls short.
+    Vec best_place(std::size_t v) const {
+        const Node& node = nodes_[v];
+        const Vec here = vec(node.at);
+        if (node.walls.size() == 1) return vec(nodes_[other(node.walls[0], v)].at);
+        if (node.walls.size() == 2) {
+            const Vec a = vec(nodes_[other(node.walls[0], v)].at), b = vec(nodes_[other(node.walls[1], v)].at), d = b - a;
+            const double l2 = dot(d, d);
+            // At the same share of the way, so that vertices stay spread along the chain.
+            const double la = norm(here - a), lb = norm(here - b);
+            const double t = la + lb > 0 ? la / (la + lb) : 0.5;
+            return l2 > 0 ? a + t * d : a;
+        }
+        Vec sum{};  // Weiszfeld's step towards the point with the least sum of distances
+        double weights = 0;
+        for (const std::uint32_t w : node.walls) {
+            const Vec u = vec(nodes_[other(w, v)].at);
+            const double weight = 1 / std::max(norm(u - here), 1.0);
+            sum = sum + weight * u, weights += weight;
+        }
+        const Vec mean = (1 / weights) * sum;
+        return here + 1.0 * (mean - here);
+    }
+
+    double length_at(std::size_t v, Point p, std::size_t merged) const {
+        double sum = 0;
+        for (const std::uint32_t w : nodes_[v].walls)
+            if (const std::size_t u = other(w, v); u != merged) sum += length(nodes_[u].at - p);
+        return sum;
+    }
+
+    bool improve(std::size_t v) {
+        if (nodes_[v].root) return slide(v);
+        if (merge_into_neighbour(v)) return true;
+        const Vec here = vec(nodes_[v].at), to = best_place(v);
+        Vec way = to - here;
+        const double l = norm(way);
+        if (l < 2) return false;
+        // A tip stops short of its neighbour, into which it merges when both may.
+        double share = nodes_[v].walls.size() == 1 ? std::max(0.0, l - 3) / l : 1;
+        share = std::min(share, 2.0 * static_cast<double>(step_) / l);
+        // The farthest that all of `from` allow, one unit short for the rounding.
+        for (const Point f : nodes_[v].from) {
+            const double reach = static_cast<double>(step_) - 1;
+            const Vec d = here - vec(f);
+            const double a = dot(way, way), b = dot(d, way), c = dot(d, d) - reach * reach;
+            const double root = b * b - a * c;
+            if (root < 0) return false;
+            share = std::min(share, (-b + std::sqrt(root)) / a);
+        }
+        const double before = length_at(v, nodes_[v].at, none);
+        for (int attempt = 0; attempt < 3 && share > 0; ++attempt, share /= 2) {
+            const Point p = rounded(here + share * way);
+            if (p == nodes_[v].at) return false;
+            if (!reachable(nodes_[v], p) || length_at(v, p, none) >= before || collides(v, p, none)) continue;
+            nodes_[v].at = p;
+            return true;
+        }
+        return false;
+    }
+
+    /// v's points go to a neighbour when it is within their reach.
+    bool merge_into_neighbour(std::size_t v) {
+        for (const std::uint32_t w : nodes_[v].walls) {
+            const std::size_t u = other(w, v);
+            const Point p = nodes_[u].at;
+            if (!reachable(nodes_[v], p)) continue;
+            if (length_at(v, p, u) > length_at(v, nodes_[v].at, none)) continue;
+            if (collides(v, p, u) || runs_over(v, u)) continue;
+            merge(v, u, w);
+            return true;
+        }
+        return false;
+    }
+    /// Would a wall of v lie on a wall of u once both begin in u?
+    bool runs_over(std::size_t v, std::size_t u) const {
+        const Point p = nodes_[u].at;
+        for (const std::uint32_t w : nodes_[v].walls)
+            for (const std::uint32_t k : nodes_[u].walls) {
+                const std::size_t x = other(w, v), y = other(k, u);
+                if (x == u || y == v) continue;
+                if (orientation(p, nodes_[x].at, nodes_[y].at) == 0 && ahead(p, nodes_[x].at, nodes_[y].at)) return true;
+            }
+        return false;
+    }
+    void merge(std::size_t v, std::size_t u, std::uint32_t between) {
+        walls_[between].alive = false;
+        std::erase(nodes_[u].walls, between);
+        for (const std::uint32_t w : nodes_[v].walls) {
+            if (w == between) continue;
+            (walls_[w].a == v ? walls_[w].a : walls_[w].b) = u;
+            nodes_[u].walls.push_back(w);
+        }
+        for (const Point f : nodes_[v].from)
+            if (std::find(nodes_[u].from.begin(), nodes_[u].from.end(), f) == nodes_[u].from.end()) nodes_[u].from.push_back(f);
+        nodes_[v].gone = true;
+        nodes_[v].walls.clear();
+    }
+
+    /// A root goes along the shell towards the point that makes its walls shortest.
+    bool slide(std::size_t v) {
+        const Node& node = nodes_[v];
+        if (node.walls.size() != 1) return false;
+        const Point neighbour = nodes_[other(node.walls[0], v)].at;
+        const Segment& nearest = boundary_.edges.segments()[boundary_.edges.nearest(neighbour).index];
+        const Vec here = vec(node.at), wish = vec(nearest_point(neighbour, nearest));
+        const double before = length(neighbour - node.at);
+        double reach = std::min(norm(wish - here), static_cast<double>(step_) - 4);
+        if (norm(wish - here) < 2) return false;
+        for (int attempt = 0; attempt < 3; ++attempt, reach /= 2) {
+            const Point beside = rounded(here + (reach / norm(wish - here)) * (wish - here));
+            const Segment& edge = boundary_.edges.segments()[boundary_.edges.nearest(beside).index];
+            const Point p = place_root(nearest_point(beside, edge), boundary_);
+            if (p == node.at || !reachable(node, p) || length(neighbour - p) >= before - 1 || collides(v, p, none)) continue;
+            nodes_[v].at = p;
+            return true;
+        }
+        return false;
+    }
+
+    /// Trees with several roots fall apart in the middle of the longest wall between two of them.
+    void cut_between_roots() {
+        const std::size_t n = nodes_.size();
+        std::vector<std::int64_t> owner(n, -1);
+        std::vector<std::uint32_t> by(n, 0);
+        std::vector<double> distance(n, 0);
+        // Shortest way along the tree to a root: the walls where two roots' parts meet are cut.
+        std::vector<std::pair<double, std::size_t>> heap;
+        const auto later = [](const auto& a, const auto& b) { return a > b; };
+        for (std::size_t v = 0; v < n; ++v)
+            if (nodes_[v].root && !nodes_[v].walls.empty()) owner[v] = static_cast<std::int64_t>(v), heap.push_back({0, v});
+        std::vector<char> done(n, 0);
+        std::make_heap(heap.begin(), heap.end(), later);
+        while (!heap.empty()) {
+            std::pop_heap(heap.begin(), heap.end(), later);
+            const auto [d, v] = heap.back();
+            heap.pop_back();
+            if (done[v]) continue;
+            done[v] = 1;
+            for (const std::uint32_t w : nodes_[v].walls) {
+                const std::size_t u = other(w, v);
+                const double l = d + length(nodes_[u].at - nodes_[v].at);
+                if (owner[u] >= 0 && distance[u] <= l) continue;
+                owner[u] = owner[v], distance[u] = l, by[u] = w;
+                heap.push_back({l, u});
+                std::push_heap(heap.begin(), heap.end(), later);
+            }
+        }
+        const std::size_t count = walls_.size();
+        for (std::size_t w = 0; w < count; ++w) {
+            const std::size_t a = walls_[w].a, b = walls_[w].b;
+            if (owner[a] < 0 || owner[b] < 0 || owner[a] == owner[b]) continue;
+            const double l = length(nodes_[b].at - nodes_[a].at), at = (distance[b] + l - distance[a]) / 2;
+            if (l < 4) continue;
+            const double t = std::clamp(at / l, 1 / l, 1 - 1 / l);
+            const Point p = rounded(vec(nodes_[a].at) + t * (vec(nodes_[b].at) - vec(nodes_[a].at)));
+            if (p == nodes_[a].at || p == nodes_[b].at) continue;
+            // Two tips in the same place, each free to run back from there.
+            const std::size_t tip_a = nodes_.size();
+            nodes_.push_back({p, false, {p}, {}});
+            nodes_.push_back({p, false, {p}, {}});
+            std::erase(nodes_[b].walls, static_cast<std::uint32_t>(w));
+            walls_[w].a = a, walls_[w].b = tip_a;
+            nodes_[tip_a].walls.push_back(static_cast<std::uint32_t>(w));
+            add_wall(tip_a + 1, b);
+            cut_.push_back({w, walls_.size() - 1});
+        }
+    }
+
+    /// The narrowest corner of a junction with four walls or more, or of a root with two or more, below 120°: its two walls
+    /// get a common beginning that grows from layer to layer.
+    void zip_corners() {
+        const std::size_t n = nodes_.size();
+        for (std::size_t v = 0; v < n; ++v) {
+            if (nodes_[v].gone || nodes_[v].walls.size() < (nodes_[v].root ? 2u : 4u)) continue;
+            std::vector<std::pair<double, std::uint32_t>> around;
+            for (const std::uint32_t w : nodes_[v].walls) {
+                const Vec d = vec(nodes_[other(w, v)].at) - vec(nodes_[v].at);
+                around.push_back({std::atan2(d.y, d.x), w});
+            }
+            std::sort(around.begin(), around.end());
+            double narrowest = 2 * M_PI / 3;
+            std::size_t best = around.size();
+            for (std::size_t k = 0; k < around.size(); ++k) {
+                const bool last = k + 1 == around.size();
+                const double angle = around[last ? 0 : k + 1].first - around[k].first + (last ? 2 * M_PI : 0);
+                if (angle < narrowest) narrowest = angle, best = k;
+            }
+            if (best == around.size()) continue;
+            const std::uint32_t w1 = around[best].second, w2 = around[(best + 1) % around.size()].second;
+            const std::size_t a = other(w1, v), b = other(w2, v);
+            const Vec here = vec(nodes_[v].at), da = vec(nodes_[a].at) - here, db = vec(nodes_[b].at) - here;
+            const Vec bisector = (1 / norm(da)) * da + (1 / norm(db)) * db;
+            const double reach = std::min({static_cast<double>(step_) - 2, 0.5 * norm(da), 0.5 * norm(db)});
+            if (reach < 4 || norm(bisector) < 1e-9) continue;
+            const Point p = rounded(here + (reach / norm(bisector)) * bisector);
+            if (p == nodes_[v].at || p == nodes_[a].at || p == nodes_[b].at) continue;
+            const double saved = norm(da) + norm(db) - norm(vec(nodes_[a].at) - vec(p)) - norm(vec(nodes_[b].at) - vec(p)) - reach;
+            if (saved <= 1) continue;
+            // The corner is empty between the two walls, but another wall may reach into it.
+            bool free = true;
+            for (const Segment s : {Segment{p, nodes_[a].at}, Segment{p, nodes_[b].at}, Segment{nodes_[v].at, p}}) {
+                Box box;
+                box.add(s.a), box.add(s.b);
+                grid_.visit(box, [&](std::uint32_t k) {
+                    if (free && walls_[k].alive && k != w1 && k != w2) free = !collide(s, segment(walls_[k]));
+                });
+            }
+            if (!free) continue;
+            const std::size_t joint = nodes_.size();
+            nodes_.push_back({p, false, {nodes_[v].at}, {w1, w2}});
+            for (const std::uint32_t w : {w1, w2}) {
+                (walls_[w].a == v ? walls_[w].a : walls_[w].b) = joint;
+                std::erase(nodes_[v].walls, w);
+            }
+            add_wall(v, joint);
+        }
+    }
+
+    ShrunkSupports finish() {
+        ShrunkSupports result;
+        std::vector<std::int64_t> vertex(nodes_.size(), -1);
+        const auto keep = [&](std::size_t v) {
+            if (vertex[v] < 0)
+                vertex[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{nodes_[v].at, nodes_[v].root}, result.forest));
+            return static_cast<std::size_t>(vertex[v]);
+        };
+        for (const Wall& w : walls_)
+            if (w.alive) {
+                const std::size_t a = keep(w.a), b = keep(w.b);
+                add_edge(a, b, result.forest);
+                result.left_cavity = result.left_cavity || meets_shell(w);
+            }
+        for (std::size_t v = 0; v < nodes_.size(); ++v)
+            if (!nodes_[v].gone && nodes_[v].root && nodes_[v].walls.empty()) keep(v);
+        result.survives.resize(input_walls_);
+        for (std::size_t w = 0; w < input_walls_; ++w) result.survives[w] = walls_[w].alive;
+        for (const auto& [w, half] : cut_) result.survives[w] = walls_[w].alive || walls_[half].alive;
+        return result;
+    }
+
+    /// Does the wall meet the shell anywhere but at its roots?
+    bool meets_shell(const Wall& w) const {
+        const Segment s = segment(w);
+        Box box;
+        box.add(s.a), box.add(s.b);
+        bool meets = false;
+        boundary_.edges.visit(box, [&](std::uint32_t k) {
+            const Segment& e = boundary_.edges.segments()[k];
+            if (meets || !segments_touch(s, e)) return;
+            const bool at_a = nodes_[w.a].root && compare_distance(s.a, e, 2 * root_tolerance) <= 0;
+            const bool at_b = nodes_[w.b].root && compare_distance(s.b, e, 2 * root_tolerance) <= 0;
+            meets = !at_a && !at_b;
+        });
+        return meets;
+    }
+
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    const CavityBoundary& boundary_;
+    Unit step_;
+    std::vector<Node> nodes_;
+    std::vector<Wall> walls_;
+    std::vector<std::pair<std::size_t, std::size_t>> cut_;
+    std::size_t input_walls_ = 0;
+    SegmentGrid grid_;
+};
+
+}  // namespace
+
+ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step) {
+    return Shrinker(forest, boundary, step).run();
+}
+
+}  // namespace ribvault

@@ -1,0 +1,26 @@
+// Thrifty strategy: erosion and straightening as one descent of the supports' length (in place of Section 4.1, Reduction).
+#pragma once
+
+#include <vector>
+
+#include "ribvault/vault/cavity_boundary.hpp"
+#include "ribvault/vault/support_forest.hpp"
+
+namespace ribvault {
+
+struct ShrunkSupports {
+    SupportForest forest;
+    std::vector<char> survives;  ///< per edge of the input, in its order: something of it is left
+    bool left_cavity = false;    ///< some wall meets the boundary of C_i and must be clipped again
+};
+
+/// Shortens the supports as far as points that move by at most `step` can: tips run back, junctions move too, roots slide
+/// along the shell, vertices that meet merge, the narrowest corner of a crowded junction or root is zipped up, and a tree
+/// with several roots is cut apart between them.
+///
+/// Every point of a wall stays within `step` of what has become of the wall (a segment whose ends moved by at most `step`,
+/// decided exactly, or a point within `step` of both its ends), so equation (1) holds as for the paper's two operators. No two
+/// walls cross that did not before.
+ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step);
+
+}  // namespace ribvault

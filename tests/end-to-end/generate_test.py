@@ -1,0 +1,126 @@
+"""`ribvault generate` as a user runs it: exit codes, messages, files. Run by CTest with the program's path in RIBVAULT."""
+import json
+import os
+import pathlib
+import re
+import resource
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.environ["RIBVAULT"]
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+CUBE = ROOT / "experiments/models/cube20.stl"
+CORPUS = ROOT / "tests/corpus/meshes"
+
+
+class Generate(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def run_program(self, *arguments, **options):
+        return subprocess.run([PROGRAM, "generate", *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
+                              **options)
+
+    def files(self):
+        return {p.name for p in self.folder.iterdir()}
+
+    def refuse(self, code, fragment, *arguments):
+        done = self.run_program(*arguments, "-o", "out.gcode")
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn(fragment, done.stderr)
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        self.assertEqual(self.files(), set())
+
+    def test_everything_is_written_and_said(self):
+        done = self.run_program(CUBE, "-o", "a.gcode", "--report", "a.json", "--svg", "pictures", "--mesh", "walls.stl")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("equation (2) holds on all 100 layers", done.stdout)
+        self.assertEqual(self.files(), {"a.gcode", "a.json", "pictures", "walls.stl"})
+        self.assertEqual(len(list((self.folder / "pictures").iterdir())), 100)
+        report = json.loads((self.folder / "a.json").read_text())
+        self.assertTrue(report["verdict"]["proved"])
+        self.assertEqual(len(report["layers"]), 100)
+        gcode = (self.folder / "a.gcode").read_text()
+        self.assertEqual(re.findall(r"^;LAYER:(\d+)$", gcode, re.M), [str(k) for k in range(100)])
+        pushed = sum(float(e) for e in re.findall(r"^G1 X\S+ Y\S+ E(\S+)", gcode, re.M))
+        self.assertAlmostEqual(pushed, report["totals"]["filament_mm"], delta=0.01 * pushed)
+
+    def test_quiet_says_nothing(self):
+        done = self.run_program(CUBE, "-o", "a.gcode", "--quiet")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+    def test_the_same_bytes_for_any_number_of_threads(self):
+        texts = set()
+        for threads in (1, 2, 5):
+            self.run_program(CUBE, "-o", "a.gcode", "--report", "a.json", "--threads", threads)
+            report = json.loads((self.folder / "a.json").read_text())
+            del report["machine"]
+            texts.add((self.folder / "a.gcode").read_bytes() + json.dumps(report).encode())
+        self.assertEqual(len(texts), 1)
+
+    def test_wrong_options(self):
+        self.refuse(2, "--layer-height", CUBE, "--layer-height", "-1")
+        self.refuse(2, "--nozzle", CUBE, "--nozzle", "wide")
+        self.refuse(2, "--overlap", CUBE, "--overlap", "1.5")
+        for arguments in ([], [CUBE, "--no-such-option"], [CUBE, "--scale", "2", "--height", "3"]):
+            self.assertEqual(self.run_program(*arguments).returncode, 2)
+
+    def test_unreadable_input(self):
+        self.refuse(3, "missing.stl", "missing.stl")
+        (self.folder / "folder").mkdir()
+        done = self.run_program("folder", "-o", "out.gcode")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        (self.folder / "folder").rmdir()
+        self.refuse(3, "truncated.stl", CORPUS / "truncated.stl")
+        self.refuse(3, "rubbish.dat", CORPUS / "rubbish.dat")
+
+    def test_no_solid(self):
+        self.refuse(4, "nan.stl", CORPUS / "nan.stl")
+        self.refuse(4, "volume", CORPUS / "flat.off")
+
+    def test_no_place(self):
+        self.refuse(5, "--bed", CUBE, "--scale", "20")
+        self.refuse(5, "--scale", CUBE, "--scale", "0.001")
+        self.refuse(5, "no layer", CUBE, "--scale", "0.1", "--layer-height", "8")
+
+    def test_unwritable_output(self):
+        done = self.run_program(CUBE, "-o", "no/such/folder/a.gcode")
+        self.assertEqual(done.returncode, 6, done.stderr)
+        self.assertIn("no/such/folder/a.gcode", done.stderr)
+
+    def test_a_full_disk_leaves_what_was_there(self):
+        (self.folder / "a.gcode").write_text("what the user had")
+
+        def small_files():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (100000, 100000))
+
+        done = self.run_program(CUBE, "-o", "a.gcode", "--report", "a.json", preexec_fn=small_files)
+        self.assertEqual(done.returncode, 6, done.stderr)
+        self.assertEqual((self.folder / "a.gcode").read_text(), "what the user had")
+        self.assertEqual(self.files(), {"a.gcode"})
+
+    def test_interrupted(self):
+        (self.folder / "a.gcode").write_text("what the user had")
+        # Thin layers take some seconds; the signal comes after the first line of progress.
+        child = subprocess.Popen([PROGRAM, "generate", CUBE, "--scale", "4", "--layer-height", "0.05", "-o", "a.gcode",
+                                  "--svg", "pictures"],
+                                 cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        child.stderr.readline()
+        child.send_signal(signal.SIGINT)
+        start = time.monotonic()
+        _, errors = child.communicate(timeout=30)
+        self.assertEqual(child.returncode, 130, errors)
+        self.assertLess(time.monotonic() - start, 10)
+        self.assertIn("interrupted", errors)
+        self.assertEqual((self.folder / "a.gcode").read_text(), "what the user had")
+        self.assertEqual([p for p in self.folder.rglob("*") if p.is_file()], [self.folder / "a.gcode"])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
