@@ -63,6 +63,7 @@ std::function<int()> add_verify(CLI::App& app) {
     add_list(rule, "--ignore-features", w.job.ignored_features, "do not judge these; they are material below all the same");
     add_number(rule, "--allow-bridges", w.job.longest_bridge, "straight spans up to this length between two ends that are held up count as supported");
     add_number(rule, "--min-area", w.job.min_area, "unsupported regions up to this do not count (default 0)", "MM2");
+    rule->add_flag("--inside", w.job.inside, "judge only what lies inside the outline (closed outer perimeters) of the layer below, not external overhangs");
     const auto reading = command->add_option_group("Reading");
     add_number(reading, "--filament-diameter", w.job.filament_diameter, "for widths that the file does not give (default: as the file says, else 1.75)");
     add_number(reading, "--layer-height", w.job.layer_height, "where the file does not tell it");

@@ -203,6 +203,19 @@ TEST_CASE("outputs: the same for any number of threads", "[verify-print]") {
     CHECK(pages[0].find("@DATA@") == std::string::npos);
 }
 
+TEST_CASE("what a file calls its features cannot end the page's script", "[verify-print]") {
+    const ScratchFolder folder;
+    VerifyJob job;
+    job.gcode = folder / "a.gcode";
+    std::ofstream(job.gcode) << "M83\n;TYPE:</script><b>\n;WIDTH:.4\nG1 Z.2\nG1 X10 E1\nG1 Z.4\nG1 X30 E1\nM84\n";
+    job.html = folder / "page.html", job.svg = folder / "svg";
+    verify_print(job);
+    const std::string page = contents(*job.html);
+    CHECK(page.find("</script><b>") == std::string::npos);
+    CHECK(page.find("\\u003c/script>") != std::string::npos);
+    CHECK(contents(*job.svg / "layer_00001.svg").find("script") == std::string::npos);
+}
+
 TEST_CASE("shells and covers of ribvault's own prints hold; only junction gaps open slivers", "[verify-print]") {
     const ScratchFolder folder;
     VerifyJob job;

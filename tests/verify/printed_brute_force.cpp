@@ -78,7 +78,8 @@ Printed line_of(const GridTrack& m, const std::vector<GridTrack>& lower, int ste
     while (!open.empty()) {
         const Piece p = open.back();
         open.pop_back();
-        const std::int64_t x0 = m.ax + p.from * dx, y0 = m.ay + p.from * dy, x1 = x0 + p.size * dx, y1 = y0 + p.size * dy;
+        const std::int64_t x0 = m.ax + p.from * dx, y0 = m.ay + p.from * dy, x1 = x0 + p.size * dx,
+                           y1 = y0 + p.size * dy;
         if (!in_any(lower, x0, y0) || !in_any(lower, x1, y1)) return Printed::unsupported;
         if (std::any_of(lower.begin(), lower.end(),
                         [&](const GridTrack& t) { return inside(t, x0, y0) && inside(t, x1, y1); }))

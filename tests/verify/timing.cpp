@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "layers.hpp"
+#include "printed_layers.hpp"
 
 using namespace ribvault;
 using namespace ribvault::test;
@@ -67,4 +68,38 @@ TEST_CASE("time per pair of layers", "[timing]") {
     const Layer roof = layer({square(690000)}, {});
     time("a roof on 500 tracks", roof, layer({frame}, {square(1000000)}, comb(21, 25, 0)), true);
     time("a roof with gaps on 250 tracks", roof, layer({frame}, {square(1000000)}, comb(10, 25, 0)), false);
+}
+
+namespace {
+
+// 100 lines of 40 mm, `step` mm apart, along x or y, longer by `beyond` at both ends.
+PrintedLayer raster(const char* step, const char* width, bool along_x, int beyond = 0) {
+    PrintedLayer layer = printed({});
+    for (int i = 0; i < 100; ++i) {
+        const Rational at = q(step) * i;
+        layer.tracks.push_back(along_x ? track(-beyond, at, 40 + beyond, at, q(width))
+                                       : track(at, -beyond, at, 40 + beyond, q(width)));
+    }
+    return layer;
+}
+
+}  // namespace
+
+TEST_CASE("time per pair of printed layers", "[timing]") {
+    const auto time = [](const char* what, const PrintedLayer& upper, const PrintedLayer& lower, bool supported) {
+        const Rational rho = q("0.2");
+        PrintedVerdict v = verify_printed(upper, lower, rho);
+        CHECK(v.supported == supported);
+        const int n = 10;
+        const auto start = std::chrono::steady_clock::now();
+        for (int i = 0; i < n; ++i) v = verify_printed(upper, lower, rho);
+        const double ms =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() / n;
+        std::cout << what << ": " << ms << " ms (intervals " << v.stages.interval << ", rationals " << v.stages.rational
+                  << ", algebraic numbers " << v.stages.algebraic << ")\n";
+    };
+    const PrintedLayer lines = raster("0.407", "0.449999", true), across = raster("0.407", "0.449999", false);
+    time("4 m of lines over the same lines", lines, lines, true);
+    time("4 m of lines across lines", across, raster("0.407", "0.449999", true, 1), true);
+    time("4 m of lines across lines 1.2 mm apart", across, raster("1.2", "0.449999", true), false);
 }

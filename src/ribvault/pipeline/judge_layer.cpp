@@ -5,11 +5,13 @@
 #include <set>
 
 #include "ribvault/print/printed_layers.hpp"
-#include "ribvault/report/region_outline.hpp"
 #include "ribvault/verify/bridges.hpp"
+#include "ribvault/verify/outside_outline.hpp"
 
 namespace ribvault {
 namespace {
+
+constexpr int area_cells = 20000;  // effort of a region's area: bounds within some per cent, half a second for a hundred layers
 
 std::array<double, 2> place(const std::array<Rational, 2>& p) { return {p[0].get_d(), p[1].get_d()}; }
 
@@ -33,7 +35,7 @@ HangingPiece describe(const UnsupportedPiece& p, const PrintedLayer& upper) {
     return piece;
 }
 
-HangingRegion describe(const UnsupportedRegion& r, const PrintedLayer& upper, const PrintedLayer& lower, double min_area) {
+HangingRegion describe(const UnsupportedRegion& r, const PrintedLayer& upper, double min_area) {
     HangingRegion region;
     region.area_mm2 = {r.area_lo, r.area_hi};
     region.distance_mm = {r.distance_lo, r.distance_hi};
@@ -47,7 +49,6 @@ HangingRegion describe(const UnsupportedRegion& r, const PrintedLayer& upper, co
     region.lines.assign(lines.begin(), lines.end());
     region.features.assign(features.begin(), features.end());
     region.ignored = r.area_hi <= min_area;
-    region.outline = outline_data(r, upper, lower);
     return region;
 }
 
@@ -104,15 +105,19 @@ JudgedLayer judge_layer(const GcodePrint& print, std::size_t entry, const LayerR
         for (const PrintedTrack& t : tracks.tracks) judged.push_back(rules.judged[static_cast<std::size_t>(t.feature)]);
         return judged;
     };
-    const PrintedLayer lower = material_below(print, entry);
+    PrintedLayer lower = material_below(print, entry);
     PrintedLayer upper = layer_above(print, entry);
+    if (rules.inside) {
+        std::vector<PrintedTrack> outside = stretches_outside(upper, lower);
+        lower.tracks.insert(lower.tracks.end(), outside.begin(), outside.end());
+    }
     if (rules.longest_bridge) {
         const std::vector<char> judged = judged_of(upper);
         upper = without_bridges(layer, std::move(upper), lower, judged, rules, result);
     }
     PrintedOptions options;
     options.judged = judged_of(upper);
-    options.boundaries = rules.outlines;
+    options.area_cells = area_cells;
     const PrintedVerdict verdict = verify_printed(upper, lower, rules.support_radius, options);
     out.stages += verdict.stages;
     for (std::size_t k = 0; k < upper.tracks.size(); ++k) {
@@ -121,7 +126,7 @@ JudgedLayer judge_layer(const GcodePrint& print, std::size_t entry, const LayerR
         result.features[static_cast<std::size_t>(upper.tracks[k].feature)].unsupported_mm += length;
     }
     for (const UnsupportedPiece& p : verdict.pieces) out.pieces.push_back(describe(p, upper));
-    for (const UnsupportedRegion& r : verdict.regions) out.regions.push_back(describe(r, upper, lower, rules.min_area));
+    for (const UnsupportedRegion& r : verdict.regions) out.regions.push_back(describe(r, upper, rules.min_area));
     const auto counts = [](const HangingRegion& r) { return !r.ignored; };
     out.supported = verdict.supported || (!out.regions.empty() && std::none_of(out.regions.begin(), out.regions.end(), counts));
     return result;

@@ -14,7 +14,7 @@ struct LayerRules {
     std::optional<Rational> longest_bridge;  ///< mm
     double min_area = 0;                     ///< mm²
     std::vector<char> judged;                ///< per feature
-    bool outlines = false;                   ///< trace the boundaries of regions
+    bool inside = false;                     ///< only what lies inside the outline below (verify/outside_outline.hpp)
 };
 
 /// What a feature has in one layer.

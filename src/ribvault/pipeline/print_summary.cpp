@@ -71,6 +71,7 @@ void describe_verdict(std::string& text, const PrintReport& r) {
     if (r.supported) {
         print(text, "supported  equation (2) holds on all %d layers, decided exactly%s\n", r.layer_count,
               r.area_mm2.hi > 0 ? ", but for regions that --min-area lets pass" : r.bridged_mm.hi > 0 ? ", but for the bridges" : "");
+        if (r.inside) print(text, "           inside the outline of the layer below; what hangs outside it was not judged (--inside)\n");
     } else {
         print(text, "NOT SUPPORTED  on %d of %d layers, %s mm2 in all have no material within rho below:\n", r.layers_unsupported, r.layer_count,
               collapsed(r.area_mm2, 3).c_str());
@@ -80,7 +81,7 @@ void describe_verdict(std::string& text, const PrintReport& r) {
             const HangingRegion* worst = nullptr;
             for (const HangingRegion& region : layer.regions) {
                 area += region.area_mm2;
-                if (worst == nullptr || region.area_mm2.hi > worst->area_mm2.hi) worst = &region;
+                if (worst == nullptr || region.area_mm2.middle() > worst->area_mm2.middle()) worst = &region;
             }
             if (worst == nullptr) continue;
             print(text, "  layer %d (z %.2f): %s mm2 in %zu regions, the largest at x %.3f y %.3f, line %lld\n", layer.layer, layer.z_mm,

@@ -12,6 +12,7 @@
 #include "ribvault/error.hpp"
 #include "ribvault/output_file.hpp"
 #include "ribvault/pipeline/judge_layer.hpp"
+#include "ribvault/print/printed_layers.hpp"
 #include "ribvault/print/read_gcode.hpp"
 #include "ribvault/report/print_page.hpp"
 #include "ribvault/report/printed_layer_svg.hpp"
@@ -139,6 +140,13 @@ private:
         report_.support_radius_exact = radius_.get_str();
         if (job_.longest_bridge) report_.longest_bridge_mm = job_.longest_bridge->get_d();
         report_.min_area_mm2 = job_.min_area.get_d();
+        report_.inside = job_.inside;
+        const auto has_outline = [&](const GcodeLayer& layer) {
+            const std::vector<char> outline = outline_tracks(print_, layer);
+            return std::find(outline.begin(), outline.end(), 1) != outline.end();
+        };
+        if (job_.inside && std::none_of(print_.layers.begin(), print_.layers.end(), has_outline))
+            refuse("--inside needs closed loops of outer perimeter, and " + job_.gcode.string() + " has none that end exactly where they begin; judge it without");
     }
 
     void choose_features() {
@@ -154,7 +162,7 @@ private:
                                             : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
         report_.threads = static_cast<int>(limit);
-        const LayerRules rules{radius_, job_.longest_bridge, report_.min_area_mm2, judged_, job_.svg || job_.html};
+        const LayerRules rules{radius_, job_.longest_bridge, report_.min_area_mm2, judged_, job_.inside};
         const int total = static_cast<int>(print_.layers.size());
         std::vector<JudgedLayer> judged(print_.layers.size());
         std::mutex reporting;

@@ -22,6 +22,7 @@ struct VerifyJob {
     std::vector<std::string> features;       ///< judge only these: names or kinds, any case; empty: all
     std::vector<std::string> ignored_features;
     std::optional<Rational> longest_bridge;  ///< mm; default: bridges are not told apart
+    bool inside = false;                    ///< judge only what lies inside the outline of the layer below
     Rational min_area = 0;                   ///< mm²; regions up to this do not count
     std::optional<std::filesystem::path> report, svg, html;  ///< what to write; svg is a folder
     int pictures = 12;                       ///< how many layers svg gets at most

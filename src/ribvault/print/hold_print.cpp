@@ -6,6 +6,7 @@
 
 #include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/exact/point_location.hpp"
+#include "ribvault/print/drop_tiny_steps.hpp"
 #include "ribvault/print/printed_tracks.hpp"
 #include "ribvault/print/support_paths.hpp"
 #include "ribvault/verify/outside_outline.hpp"
@@ -95,6 +96,7 @@ private:
             if (s.b != s.a) path.points.push_back(s.b);
             held_.plan.tracks.push_back({{std::move(path)}, Entry::either_end, no_stop});
         }
+        drop_tiny_steps(held_.plan);
         held_.printed = printed_layer(held_.plan);
     }
 

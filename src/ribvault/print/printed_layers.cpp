@@ -16,7 +16,7 @@ Rational in_mm(std::int64_t value) {
     return mm;
 }
 
-void append(const GcodeLayer& layer, std::int64_t widen_chords, PrintedLayer& to) {
+void append(const GcodeLayer& layer, const std::vector<char>& outline, std::int64_t widen_chords, PrintedLayer& to) {
     std::vector<std::array<Rational, 2>> points;
     points.reserve(layer.points.size());
     for (const GcodePoint& p : layer.points) points.push_back({to_rational(p.x), to_rational(p.y)});
@@ -26,7 +26,7 @@ void append(const GcodeLayer& layer, std::int64_t widen_chords, PrintedLayer& to
     for (const GcodeTrack& t : layer.tracks) {
         const std::int64_t wide = std::max<std::int64_t>(1, t.width + (t.chord ? widen_chords : 0));
         if (wide != last_width) width = in_mm(last_width = wide);
-        to.tracks.push_back({points[t.a], points[t.b], width, t.feature, t.line});
+        to.tracks.push_back({points[t.a], points[t.b], width, t.feature, t.line, !outline.empty() && outline[static_cast<std::size_t>(&t - layer.tracks.data())] != 0});
     }
 }
 
@@ -35,15 +35,34 @@ void append(const GcodeLayer& layer, std::int64_t widen_chords, PrintedLayer& to
 PrintedLayer layer_above(const GcodePrint& print, std::size_t entry) {
     const GcodeLayer& layer = print.layers[entry];
     PrintedLayer above{to_rational(layer.z), in_mm(layer.height), {}};
-    append(layer, 2 * arc_bound, above);
+    append(layer, {}, 2 * arc_bound, above);
     return above;
 }
 
 PrintedLayer material_below(const GcodePrint& print, std::size_t entry) {
     const GcodeLayer& layer = print.layers[entry];
     PrintedLayer material{to_rational(layer.z) - in_mm(layer.height), {}, {}};
-    for (const std::size_t k : layer.below) append(print.layers[k], -2 * arc_bound, material);
+    for (const std::size_t k : layer.below) append(print.layers[k], outline_tracks(print, print.layers[k]), -2 * arc_bound, material);
     return material;
+}
+
+std::vector<char> outline_tracks(const GcodePrint& print, const GcodeLayer& layer) {
+    std::vector<char> outer;
+    for (const GcodeFeature& feature : print.features) {
+        std::string name = feature.name;
+        std::transform(name.begin(), name.end(), name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+        outer.push_back(name == "external perimeter" || name == "outer wall" || name == "wall-outer" || name == "outer perimeter");
+    }
+    std::vector<char> result(layer.tracks.size(), 0);
+    const std::vector<GcodeTrack>& tracks = layer.tracks;
+    for (std::size_t k = 0; k < tracks.size();) {
+        std::size_t end = k + 1;
+        while (end < tracks.size() && tracks[end].continues && tracks[end].feature == tracks[k].feature) ++end;
+        if (outer[tracks[k].feature] && end - k > 2 && layer.points[tracks[k].a] == layer.points[tracks[end - 1].b])
+            std::fill(result.begin() + static_cast<std::ptrdiff_t>(k), result.begin() + static_cast<std::ptrdiff_t>(end), 1);
+        k = end;
+    }
+    return result;
 }
 
 std::vector<char> continued_tracks(const GcodeLayer& layer) {

@@ -12,8 +12,13 @@ namespace ribvault {
 /// arc may lie beside it (arc_bound_mm), so that it contains the arc's material.
 PrintedLayer layer_above(const GcodePrint& print, std::size_t entry);
 
-/// The material directly below it: all tracks of its `below`, whatever feature they belong to. A chord is as much narrower.
+/// The material directly below it: all tracks of its `below`, whatever feature they belong to. A chord is as much narrower. `outline` is set as
+/// outline_tracks says.
 PrintedLayer material_below(const GcodePrint& print, std::size_t entry);
+
+/// Per track of the entry: 1 when it is part of a closed loop of outer perimeter (a feature named so), which bounds the object:
+/// tracks that follow each other without a travel and end exactly where they began.
+std::vector<char> outline_tracks(const GcodePrint& print, const GcodeLayer& layer);
 
 /// Per track of the entry: 1 when it goes on where the track before it ended, without a travel.
 std::vector<char> continued_tracks(const GcodeLayer& layer);

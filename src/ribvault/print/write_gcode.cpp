@@ -103,7 +103,10 @@ struct Writer {
         statistics.filament += volume / filament_area(printer);
     }
     void track(const ToolPath& path, Unit height, double mm_per_s) {
-        const double volume_per_mm = to_mm(path.width) * to_mm(height);
+        double volume_per_mm = to_mm(path.width) * to_mm(height);
+        // A stub shorter than a quarter of its width gets a dot's filament: it is a dot, a little drawn out.
+        if (const double whole = length(path); 4 * whole < static_cast<double>(path.width))
+            volume_per_mm *= std::numbers::pi / 4 * static_cast<double>(path.width) / whole;
         const double filament_per_unit = to_mm(1) * volume_per_mm / filament_area(printer);
         double sum = 0;
         const std::size_t count = path.points.size();

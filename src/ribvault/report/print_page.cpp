@@ -56,8 +56,8 @@ Json entry(const GcodePrint& print, const HangingLayer& hanging) {
     Json lines = Json::array(), regions = Json::array();
     for (const PrintedLine& line : printed_lines(layer)) lines.push_back({line.feature, std::llround(line.width_mm * 1000), packed(line.points)});
     for (const HangingRegion& r : hanging.regions)
-        regions.push_back({rounded(r.area_mm2.hi, 1e6), rounded(r.distance_mm.hi), rounded(r.witness[0]), rounded(r.witness[1]), r.outline,
-                           r.lines.empty() ? 0 : r.lines.front(), r.features});
+        regions.push_back({rounded(r.area_mm2.lo, 1e6), rounded(r.area_mm2.hi, 1e6), rounded(r.distance_mm.hi), rounded(r.witness[0]),
+                           rounded(r.witness[1]), r.lines.empty() ? 0 : r.lines.front(), r.features});
     return {{"layer", hanging.layer},   {"z", rounded(hanging.z_mm)},
             {"bed", hanging.on_bed},    {"length", rounded(hanging.length_mm)},
             {"hangs", rounded(hanging.unsupported_mm.hi)}, {"below", layer.below},
@@ -90,8 +90,8 @@ Json content(const GcodePrint& print, const PrintReport& r) {
                                             : "Hangs on " + std::to_string(r.layers_unsupported) + " of " + std::to_string(r.layer_count) + " layers.";
     const std::string facts = (r.flavour == "unknown" ? "" : r.flavour + ", ") + "ρ = " + fixed(r.support_radius_mm, 3) + " mm (" +
                               r.support_radius_source + "); " + fixed(r.unsupported_mm.hi, 1) + " of " + fixed(r.length_mm, 0) + " mm and " +
-                              fixed(r.area_mm2.hi, 2) + " mm² have no material within ρ below." + (r.cut.empty() ? "" : " The file is cut off: " + r.cut + ".");
-    return {{"name", name}, {"supported", r.supported}, {"verdict", verdict}, {"facts", facts}, {"bridges", r.longest_bridge_mm.has_value()},
+                              fixed(r.area_mm2.lo, 2) + " to " + fixed(r.area_mm2.hi, 2) + " mm² have no material within ρ below." + (r.cut.empty() ? "" : " The file is cut off: " + r.cut + ".");
+    return {{"name", name}, {"supported", r.supported}, {"verdict", verdict}, {"facts", facts}, {"bridges", r.longest_bridge_mm.has_value()}, {"rho", r.support_radius_mm},
             {"box", box},   {"features", features},     {"entries", entries}};
 }
 

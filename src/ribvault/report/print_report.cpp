@@ -38,7 +38,7 @@ std::vector<std::size_t> worst_layers(const PrintReport& report, std::size_t mos
     std::vector<double> area(report.layers.size());
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < report.layers.size(); ++k) {
-        for (const HangingRegion& region : report.layers[k].regions) area[k] += region.area_mm2.hi;
+        for (const HangingRegion& region : report.layers[k].regions) area[k] += region.area_mm2.middle();
         if (area[k] > 0 || !report.layers[k].pieces.empty()) order.push_back(k);
     }
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

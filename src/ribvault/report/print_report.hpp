@@ -14,6 +14,7 @@ namespace ribvault {
 /// A number known to lie between two bounds.
 struct Enclosure {
     double lo = 0, hi = 0;
+    double middle() const { return (lo + hi) / 2; }
     Enclosure& operator+=(const Enclosure& o) {
         lo += o.lo, hi += o.hi;
         return *this;
@@ -40,7 +41,6 @@ struct HangingRegion {
     std::vector<std::int64_t> lines;       ///< of the tracks it belongs to, ascending
     std::vector<int> features;             ///< of these tracks, ascending
     bool ignored = false;                  ///< its area is at most --min-area
-    std::string outline;                   ///< its boundary as SVG path data, mm, y downwards; empty: not traced
 };
 
 /// One layer, or one of the parts of a layer that have heights of their own.
@@ -87,6 +87,7 @@ struct PrintReport {
     std::string filament_source;
     std::optional<double> longest_bridge_mm;
     double min_area_mm2 = 0;
+    bool inside = false;  ///< only what lies inside the outline of the layer below was judged
 
     std::vector<HangingFeature> features;
     std::vector<HangingLayer> layers;

@@ -24,10 +24,12 @@ std::string fixed(double value, int places) {
     return std::string(text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, places).ptr);
 }
 
-/// All tracks of a layer, one path a width.
-std::string tracks(const GcodeLayer& layer, const char* colour) {
+/// All tracks of a layer for which `wanted` holds, widened by `more` mm, one path a width.
+template <class Wanted>
+std::string tracks(const GcodeLayer& layer, const char* colour, double more, Wanted&& wanted) {
     std::map<double, std::string> by_width;
-    for (const PrintedLine& line : printed_lines(layer)) append_line(by_width[line.width_mm], line.points);
+    for (const PrintedLine& line : printed_lines(layer))
+        if (wanted(line)) append_line(by_width[line.width_mm + more], line.points);
     std::string svg;
     for (const auto& [width, data] : by_width)
         svg += std::string("<path fill=\"none\" stroke=\"") + colour + "\" stroke-linecap=\"round\" stroke-linejoin=\"round\" stroke-width=\"" +
@@ -48,10 +50,11 @@ std::string text(double x, double y, double size, const std::string& words) {
 }
 
 std::string caption(const HangingLayer& l) {
-    double area = 0;
-    for (const HangingRegion& r : l.regions) area += r.area_mm2.hi;
+    Enclosure area;
+    for (const HangingRegion& r : l.regions) area += r.area_mm2;
+    const std::string least = fixed(area.lo, 2), most = fixed(area.hi, 2);
     return "layer " + std::to_string(l.layer) + ", z " + fixed(l.z_mm, 2) + " mm: " + fixed(l.unsupported_mm.hi, 2) + " mm of " +
-           fixed(l.length_mm, 1) + " mm hang, " + fixed(area, 3) + " mm²";
+           fixed(l.length_mm, 1) + " mm hang, " + (least == most ? most : least + " to " + most) + " mm²";
 }
 
 std::string legend(double x, double y, double size, bool bridges) {
@@ -99,15 +102,20 @@ std::string printed_layer_svg(const GcodePrint& print, const PrintReport& report
                       " " + svg_number(height) + "\" width=\"" + fixed(width * pixels, 0) + "\" height=\"" + fixed(height * pixels, 0) + "\">\n";
     svg += "<title>" + caption(hanging) + "</title>\n<rect x=\"" + svg_number(left) + "\" y=\"" + svg_number(top) + "\" width=\"" +
            svg_number(width) + "\" height=\"" + svg_number(height) + "\" fill=\"#fff\"/>\n";
-    for (const std::size_t k : layer.below) svg += tracks(print.layers[k], "#ccc");
-    svg += "<g opacity=\".8\">\n" + tracks(layer, "#9fd3f5") + "</g>\n";
-    std::string outlines;
-    for (const HangingRegion& r : hanging.regions) outlines += r.outline;
-    if (!outlines.empty())
-        svg += "<path fill=\"#d55e00\" fill-opacity=\".35\" stroke=\"#d55e00\" stroke-width=\".04\" fill-rule=\"evenodd\" d=\"" + outlines + "\"/>\n";
+    const auto all = [](const PrintedLine&) { return true; };
+    const auto judged = [&](const PrintedLine& line) { return report.features[line.feature].judged; };
+    for (const std::size_t k : layer.below) svg += tracks(print.layers[k], "#ccc", 0, all);
+    svg += "<g opacity=\".8\">\n" + tracks(layer, "#9fd3f5", 0, all) + "</g>\n";
+    if (!hanging.regions.empty()) {  // the judged tracks, without the material below dilated by rho
+        const std::string frame = "x=\"" + svg_number(left) + "\" y=\"" + svg_number(top) + "\" width=\"" + svg_number(width) + "\" height=\"" +
+                                  svg_number(height) + "\"";
+        svg += "<mask id=\"hangs\" maskUnits=\"userSpaceOnUse\" " + frame + ">\n<rect " + frame + " fill=\"#fff\"/>\n";
+        for (const std::size_t k : layer.below) svg += tracks(print.layers[k], "#000", 2 * report.support_radius_mm, all);
+        svg += "</mask>\n<g mask=\"url(#hangs)\">\n" + tracks(layer, "#f0a060", 0, judged) + "</g>\n";
+    }
     svg += pieces(hanging.bridges, "#009e73") + pieces(hanging.pieces, "#d55e00");
     const auto worst = std::max_element(hanging.regions.begin(), hanging.regions.end(),
-                                        [](const HangingRegion& a, const HangingRegion& b) { return a.area_mm2.hi < b.area_mm2.hi; });
+                                        [](const HangingRegion& a, const HangingRegion& b) { return a.area_mm2.middle() < b.area_mm2.middle(); });
     if (worst != hanging.regions.end())
         svg += "<circle cx=\"" + svg_number(worst->witness[0]) + "\" cy=\"" + svg_number(-worst->witness[1]) +
                "\" r=\"1\" fill=\"none\" stroke=\"#000\" stroke-width=\".12\"/>\n";

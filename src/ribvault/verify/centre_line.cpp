@@ -34,7 +34,10 @@ struct Covered {
 class Line {
 public:
     Line(const PrintedTrack& track, const PreparedTrack& prepared, const Below& below, double margin)
-        : track_(track), prepared_(prepared), below_(below), margin_(margin),
+        : track_(track),
+          prepared_(prepared),
+          below_(below),
+          margin_(margin),
           in_doubles_(prepared.inverse_norm > 0 && prepared.length > 64 * margin) {}
 
     std::vector<CentreGap> gaps(StageCounts& stages);

@@ -23,11 +23,11 @@ std::optional<std::array<QuadraticNumber, 2>> exact_stretch(const PrintedTrack& 
 
 /// What is below one track.
 struct Below {
-    std::span<const PrintedTrack> tracks;       ///< of the layer below
-    std::span<const PreparedTrack> prepared;    ///< the same
-    std::span<const Rational> radii;            ///< half their widths plus ρ
-    std::span<const int> which;                 ///< those that come near
-    std::span<const FrameStadium> seen;         ///< those in the frame of the track
+    std::span<const PrintedTrack> tracks;     ///< of the layer below
+    std::span<const PreparedTrack> prepared;  ///< the same
+    std::span<const Rational> radii;          ///< half their widths plus ρ
+    std::span<const int> which;               ///< those that come near
+    std::span<const FrameStadium> seen;       ///< those in the frame of the track
 };
 
 /// The stretches of the centre line outside all stadiums of `below`, in order. Adds its decision to `stages`.

@@ -8,8 +8,8 @@ namespace ribvault::verify {
 
 namespace {
 
-// Both searches use that the distance to one stadium is convex: over a segment or a square it is greatest at an end or a
-// corner. So is the distance to the material, which is no greater, than the greatest of those of any one stadium.
+// Both searches use that the distance to one stadium is convex: over a segment or a square it is greatest at an end or
+// a corner. So is the distance to the material, which is no greater, than the greatest of those of any one stadium.
 
 struct Interval1 {
     double bound, from, to;
@@ -28,7 +28,8 @@ double to_stadium(const PreparedTrack& t, double x, double y) { return centre_di
 
 Farthest farthest_on_line(const PreparedTrack& track, double from, double to, const LowerTracks& lower) {
     Farthest best{-HUGE_VAL, HUGE_VAL, track.ax, track.ay};
-    const double ux = track.length > 0 ? track.dx / track.length : 0, uy = track.length > 0 ? track.dy / track.length : 0;
+    const double ux = track.length > 0 ? track.dx / track.length : 0,
+                 uy = track.length > 0 ? track.dy / track.length : 0;
     if (lower.tracks.empty()) return {HUGE_VAL, HUGE_VAL, track.ax + from * ux, track.ay + from * uy};
     const auto evaluate = [&](double s) {
         const double x = track.ax + s * ux, y = track.ay + s * uy;
@@ -71,8 +72,9 @@ Farthest farthest_in(std::span<const PreparedTrack> pieces, const LowerTracks& l
         const int k = lower.grid.nearest(x, y, distance);
         bound = std::min(bound, distance + half * 1.4142136);
         const PreparedTrack& below = lower.tracks[static_cast<std::size_t>(k)];
-        bound = std::min(bound, std::max({to_stadium(below, x - half, y - half), to_stadium(below, x + half, y - half),
-                                          to_stadium(below, x - half, y + half), to_stadium(below, x + half, y + half)}));
+        bound =
+            std::min(bound, std::max({to_stadium(below, x - half, y - half), to_stadium(below, x + half, y - half),
+                                      to_stadium(below, x - half, y + half), to_stadium(below, x + half, y + half)}));
         if (bound <= best.lo) return;
         double px = x, py = y;
         if (inside > 0 && inside > p.half - lower.margin) {
@@ -90,8 +92,7 @@ Farthest farthest_in(std::span<const PreparedTrack> pieces, const LowerTracks& l
         const PreparedTrack& p = pieces[i];
         push((p.ax + p.bx) / 2, (p.ay + p.by) / 2, std::max(std::abs(p.dx), std::abs(p.dy)) / 2 + p.half, i, HUGE_VAL);
     }
-    while (effort > 0 && !open.empty() &&
-           open.top().bound > best.lo + 1e-3 * std::abs(best.lo) + 4 * lower.margin) {
+    while (effort > 0 && !open.empty() && open.top().bound > best.lo + 1e-3 * std::abs(best.lo) + 4 * lower.margin) {
         const Cell2 c = open.top();
         open.pop();
         for (const double dx : {-c.half / 2, c.half / 2})

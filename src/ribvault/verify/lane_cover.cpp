@@ -6,12 +6,10 @@ namespace ribvault::verify {
 
 namespace {
 
-bool covers(const FrameStadium& f, double s, double y, double margin) {
-    return distance(f, s, y) <= f.radius - margin;
-}
+bool covers(const FrameStadium& f, double s, double y, double margin) { return distance(f, s, y) <= f.radius - margin; }
 
-// The half disc beyond s = `from` (a: -1, b: +1) without what is within q of `from`, q = half (root of 2 - 1): it lies in
-// the trapezium with the corners (q, +-half) and (half, +-q), whose slanted sides touch the circle.
+// The half disc beyond s = `from` (a: -1, b: +1) without what is within q of `from`, q = half (root of 2 - 1): it lies
+// in the trapezium with the corners (q, +-half) and (half, +-q), whose slanted sides touch the circle.
 bool cap_covered(double from, double direction, double half, double q, std::span<const FrameStadium> below,
                  double margin) {
     return std::any_of(below.begin(), below.end(), [&](const FrameStadium& f) {

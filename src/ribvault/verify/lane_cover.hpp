@@ -1,4 +1,5 @@
-// Tracks above that several tracks below cover together: the rule that settles most of what no single one covers. Light.
+// Tracks above that several tracks below cover together: the rule that settles most of what no single one covers.
+// Light.
 #pragma once
 
 #include <span>

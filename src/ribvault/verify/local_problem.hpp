@@ -38,8 +38,8 @@ struct Square {
     double x = 0, y = 0, half = 0;
 };
 
-/// More than all by which the root cell of a window exceeds 1.031 times the window: 64 margins of the local problem, each
-/// 2^-34 of its extent, which is below 2^2 c, c being the layers' largest coordinate and `margin` 2^-40 c.
+/// More than all by which the root cell of a window exceeds 1.031 times the window: 64 margins of the local problem,
+/// each 2^-34 of its extent, which is below 2^2 c, c being the layers' largest coordinate and `margin` 2^-40 c.
 inline double window_slack(double margin) { return 0x1p16 * margin; }
 
 /// The problem of the tracks `pieces` of `upper` over those of below.which that come near `square`. The window is the

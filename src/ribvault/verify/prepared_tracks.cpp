@@ -55,7 +55,8 @@ TrackGrid::TrackGrid(const std::vector<PreparedTrack>& tracks, double reach) : t
     cell_ = std::max(1.5 * widest, extent / most);
     columns_ = static_cast<int>((hi_x - lo_x_) / cell_) + 1, rows_ = static_cast<int>((hi_y - lo_y_) / cell_) + 1;
     starts_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
-    for (const PreparedTrack& t : tracks) visit_cells(t, t.half + reach, [&](std::size_t cell) { ++starts_[cell + 1]; });
+    for (const PreparedTrack& t : tracks)
+        visit_cells(t, t.half + reach, [&](std::size_t cell) { ++starts_[cell + 1]; });
     for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
     members_.resize(starts_.back());
     std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
@@ -118,7 +119,8 @@ int TrackGrid::nearest(double x, double y, double& distance) const {
     if (!tracks_ || tracks_->empty()) return best;
     const int ci = column(x), cj = row(y);
     const auto visit = [&](int i, int j) {
-        const std::size_t cell = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i);
+        const std::size_t cell =
+            static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i);
         for (std::uint32_t k = starts_[cell]; k < starts_[cell + 1]; ++k) {
             const PreparedTrack& t = (*tracks_)[static_cast<std::size_t>(members_[k])];
             const double d = centre_distance(t, x, y) - t.half;
@@ -130,7 +132,8 @@ int TrackGrid::nearest(double x, double y, double& distance) const {
         if (best >= 0 && distance < (n - 1) * cell_) break;
         for (int j = std::max(0, cj - n); j <= std::min(rows_ - 1, cj + n); ++j) {
             const bool whole = j == cj - n || j == cj + n;
-            for (int i = whole ? std::max(0, ci - n) : ci - n; i <= std::min(columns_ - 1, ci + n); i += whole ? 1 : 2 * n)
+            for (int i = whole ? std::max(0, ci - n) : ci - n; i <= std::min(columns_ - 1, ci + n);
+                 i += whole ? 1 : 2 * n)
                 if (i >= 0) visit(i, j);
             if (n == 0) break;
         }

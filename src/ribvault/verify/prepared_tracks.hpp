@@ -45,7 +45,8 @@ public:
     /// The same for the square of half side `half` about (x, y).
     void near(double x, double y, double half, std::vector<int>& found) const;
 
-    /// The least distance of (x, y) to the stadium of a track (negative inside), and which track; -1 when there is none.
+    /// The least distance of (x, y) to the stadium of a track (negative inside), and which track; -1 when there is
+    /// none.
     int nearest(double x, double y, double& distance) const;
 
 private:

@@ -23,10 +23,10 @@ struct PrintedPair {
 /// A stretch of a track above where its stadium meets what is not supported, and how that is known.
 struct OpenPart {
     int track = 0;
-    Stretch stretch;                          ///< along it, mm
-    std::optional<CentreGap> gap;             ///< on the centre line
-    std::optional<Uncovered> found;           ///< else: in the local problem of the part
-    std::optional<PrintedTrack> piece;        ///< M of that problem when it is not all of the track: the part itself
+    Stretch stretch;                    ///< along it, mm
+    std::optional<CentreGap> gap;       ///< on the centre line
+    std::optional<Uncovered> found;     ///< else: in the local problem of the part
+    std::optional<PrintedTrack> piece;  ///< M of that problem when it is not all of the track: the part itself
 };
 
 /// The part of the stretch as a track of its own: its stadium holds all of the track's stadium beside the stretch, and
@@ -36,12 +36,13 @@ PreparedTrack part_of(const PrintedPair& pair, const OpenPart& part);
 /// The problem of the part's track near it. Deterministic. Under upward rounding.
 void build_part_problem(const PrintedPair& pair, const OpenPart& part, LocalProblem& local);
 
-/// Whether the point is in the stadium of the track above, and whether it is in none of those below dilated by ρ. Exact.
+/// Whether the point is in the stadium of the track above, and whether it is in none of those below dilated by ρ.
+/// Exact.
 bool in_upper(const PrintedPair& pair, int track, const RationalPoint& p);
 bool outside_lower(const PrintedPair& pair, const RationalPoint& p);
 
-/// A rational point of M \ K from a point of its closure: along the direction in which it leaves that point, ever closer
-/// to it, with as many digits as it takes. Nothing when none was found. mm. Under upward rounding.
+/// A rational point of M \ K from a point of its closure: along the direction in which it leaves that point, ever
+/// closer to it, with as many digits as it takes. Nothing when none was found. mm. Under upward rounding.
 std::optional<RationalPoint> witness_from(const PrintedPair& pair, int track, const LocalProblem& local,
                                           const Uncovered& found);
 

@@ -23,7 +23,8 @@ std::vector<int> groups_of(const std::vector<PreparedTrack>& tracks, double marg
     std::iota(parent.begin(), parent.end(), 0);
     const auto top = [&](int i) {
         while (parent[static_cast<std::size_t>(i)] != i)
-            i = parent[static_cast<std::size_t>(i)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(i)])];
+            i = parent[static_cast<std::size_t>(i)] =
+                parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(i)])];
         return i;
     };
     const TrackGrid grid(tracks, 4 * margin);
@@ -52,7 +53,8 @@ std::optional<RationalPoint> short_point(const PrintedPair& pair, const std::vec
             return r;
         };
         const RationalPoint p{coordinate(x), coordinate(y)};
-        if (outside_lower(pair, p) && std::any_of(tracks.begin(), tracks.end(), [&](int t) { return in_upper(pair, t, p); }))
+        if (outside_lower(pair, p) &&
+            std::any_of(tracks.begin(), tracks.end(), [&](int t) { return in_upper(pair, t, p); }))
             return p;
     }
     return std::nullopt;
@@ -74,7 +76,8 @@ UnsupportedRegion describe(const PrintedPair& pair, const std::vector<const Open
     // The region's points are those of the tracks farther than ρ from the material.
     const Farthest farthest = farthest_in(pieces, lower, effort);
     const double rho_down = pair.rho_approx;  // get_d truncates
-    region.distance_lo = std::max(farthest.lo, rho_down), region.distance_hi = std::max(farthest.hi, region.distance_lo);
+    region.distance_lo = std::max(farthest.lo, rho_down),
+    region.distance_hi = std::max(farthest.hi, region.distance_lo);
 
     std::optional<RationalPoint> witness = short_point(pair, tracks, farthest.x, farthest.y);
     if (!witness && area.half > 0) witness = short_point(pair, tracks, area.x, area.y);
@@ -102,7 +105,8 @@ PreparedTrack part_of(const PrintedPair& pair, const OpenPart& part) {
     const PreparedTrack& t = pair.above[static_cast<std::size_t>(part.track)];
     if (t.inverse_norm == 0) return t;
     PreparedTrack p = t;
-    const double from = std::clamp(part.stretch.lo / t.length, 0.0, 1.0), to = std::clamp(part.stretch.hi / t.length, 0.0, 1.0);
+    const double from = std::clamp(part.stretch.lo / t.length, 0.0, 1.0),
+                 to = std::clamp(part.stretch.hi / t.length, 0.0, 1.0);
     p.ax = t.ax + from * t.dx, p.ay = t.ay + from * t.dy, p.bx = t.ax + to * t.dx, p.by = t.ay + to * t.dy;
     p.dx = p.bx - p.ax, p.dy = p.by - p.ay;
     const double norm = p.dx * p.dx + p.dy * p.dy;

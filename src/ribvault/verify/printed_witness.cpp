@@ -8,7 +8,6 @@ namespace ribvault::verify {
 
 namespace {
 
-
 // Nearest multiple of 2^-digits.
 Rational rounded(const Rational& a, unsigned bits) {
     mpz_class n = a.get_num();
@@ -65,7 +64,8 @@ void build_part_problem(const PrintedPair& pair, const OpenPart& part, LocalProb
     pair.grid.near(piece, piece.half + 2 * window_slack(pair.margin) + square.half, near);
     const Below below{pair.lower, pair.below, pair.radii, near, {}};
     const int pieces[] = {0};
-    build_local_problem({part.piece ? &*part.piece : &pair.upper[static_cast<std::size_t>(part.track)], 1}, pieces, below, square, pair.margin, local);
+    build_local_problem({part.piece ? &*part.piece : &pair.upper[static_cast<std::size_t>(part.track)], 1}, pieces,
+                        below, square, pair.margin, local);
 }
 
 bool in_upper(const PrintedPair& pair, int track, const RationalPoint& p) {
@@ -111,7 +111,8 @@ std::optional<RationalPoint> witness_from(const PrintedPair& pair, int track, co
     const int side = found.leaving.side == 0 ? 1 : found.leaving.side;
     for (int step = first; step > last; --step) {
         const Rational curved = Rational(found.leaving.c) * power(step) * side;
-        for (const Rational& across : {curved, Rational(side, 2), Rational(side, 16), Rational(side, 256), Rational(2 * side)})
+        for (const Rational& across :
+             {curved, Rational(side, 2), Rational(side, 16), Rational(side, 256), Rational(2 * side)})
             if (const auto mm = attempt(place(step, across))) return mm;
     }
     for (int step = first; step > last; step -= 2)

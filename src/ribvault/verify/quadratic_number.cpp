@@ -26,14 +26,13 @@ QuadraticNumber quadratic(const Rational& p, const Rational& q, const Rational& 
 
 int sign(const QuadraticNumber& a) { return sign(a.p, a.q, a.d); }
 
-// a - b = P + B - C with B = a.q sqrt(a.d), C = b.q sqrt(b.d). The sign of B - C follows from its squares, and P against
-// B - C from P^2 - (B - C)^2 = P^2 - B^2 - C^2 + 2 B C, where B C = a.q b.q sqrt(a.d b.d).
+// a - b = P + B - C with B = a.q sqrt(a.d), C = b.q sqrt(b.d). The sign of B - C follows from its squares, and P
+// against B - C from P^2 - (B - C)^2 = P^2 - B^2 - C^2 + 2 B C, where B C = a.q b.q sqrt(a.d b.d).
 int compare(const QuadraticNumber& a, const QuadraticNumber& b) {
     const Rational p = a.p - b.p, bb = a.q * a.q * a.d, cc = b.q * b.q * b.d;
     const int roots = sign_of_sum(sgn(a.q), -sgn(b.q), [&] { return cmp(bb, cc); });
-    return sign_of_sum(sgn(p), roots, [&] {
-        return sign(Rational(p * p - bb - cc), Rational(2 * a.q * b.q), Rational(a.d * b.d));
-    });
+    return sign_of_sum(sgn(p), roots,
+                       [&] { return sign(Rational(p * p - bb - cc), Rational(2 * a.q * b.q), Rational(a.d * b.d)); });
 }
 
 std::array<Rational, 2> enclose(const QuadraticNumber& a, unsigned bits) {

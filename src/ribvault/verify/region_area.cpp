@@ -75,7 +75,8 @@ Tangent tangent(const PreparedTrack& t, const AreaCell& cell) {
 void enclose_open(AreaCell& cell, const PreparedTrack* piece, const LowerTracks& lower, double rho) {
     cell.lo = 0, cell.hi = 4 * cell.half * cell.half;
     if (cell.sites.size() > 8) return;
-    std::vector<Corner> least{{-cell.half, -cell.half}, {cell.half, -cell.half}, {cell.half, cell.half}, {-cell.half, cell.half}};
+    std::vector<Corner> least{
+        {-cell.half, -cell.half}, {cell.half, -cell.half}, {cell.half, cell.half}, {-cell.half, cell.half}};
     std::vector<Corner> most = least, scratch;
     bool certain = true;  // `least` needs all of the bounds; `most` may leave some out
     const auto outside = [&](const PreparedTrack& t, double radius) {
@@ -119,7 +120,6 @@ RegionArea enclose_region_area(std::span<const PreparedTrack> pieces, const Lowe
     }
     root.x = (lo_x + hi_x) / 2, root.y = (lo_y + hi_y) / 2;
     root.half = std::max(hi_x - lo_x, hi_y - lo_y) / 2 + lower.margin;
-    const double root_half = root.half;
     lower.grid.near(root.x, root.y, root.half * half_diagonal + lower.margin, root.sites);
 
     const double margin = lower.margin;
@@ -155,10 +155,11 @@ RegionArea enclose_region_area(std::span<const PreparedTrack> pieces, const Lowe
     };
     std::vector<AreaCell> open;  // a heap
     root.hi = 4 * root.half * root.half;
-    double lo = 0, hi = root.hi;
+    double lo = 0, hi = root.hi, settled = 0;
     open.push_back(std::move(root));
     AreaCell child;
-    for (int cells = 0; !open.empty() && hi - lo > 0.01 * hi && cells < max_cells && open.front().half > 4 * margin; cells += 4) {
+    for (int cells = 0; !open.empty() && hi - lo > 0.01 * hi && cells < max_cells && open.front().half > 4 * margin;
+         cells += 4) {
         std::pop_heap(open.begin(), open.end());
         const AreaCell cell = std::move(open.back());
         open.pop_back();
@@ -169,15 +170,18 @@ RegionArea enclose_region_area(std::span<const PreparedTrack> pieces, const Lowe
             child.y = cell.y + (i & 2 ? child.half : -child.half);
             if (!classify(cell, child)) continue;
             lo += child.lo, hi += child.hi;
-            if (child.hi <= child.lo) continue;
+            if (child.hi <= child.lo) {
+                settled += child.lo;
+                continue;
+            }
             open.push_back(child);
             std::push_heap(open.begin(), open.end());
         }
     }
-    // Rounding of some thousand sums and differences, none larger than the root cell.
-    const double rounding = 4 * root_half * root_half * 1e-12;
-    area.lo = std::max(0.0, lo * (1 - 1e-9) - rounding);
-    area.hi = hi * (1 + 1e-9) + rounding;
+    // Summed anew, without differences: the rounding of some thousand sums is far below one part in 10^9.
+    lo = hi = settled;
+    for (const AreaCell& cell : open) lo += cell.lo, hi += cell.hi;
+    area.lo = lo * (1 - 1e-9), area.hi = hi * (1 + 1e-9);
     return area;
 }
 

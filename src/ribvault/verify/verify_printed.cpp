@@ -50,8 +50,8 @@ private:
     std::vector<FrameStadium> seen_;
 };
 
-// When both ends of the track lie within R - w/2 of one segment below, R being its stadium's radius, then so does all of
-// it, and its stadium lies in that one. Ties included.
+// When both ends of the track lie within R - w/2 of one segment below, R being its stadium's radius, then so does all
+// of it, and its stadium lies in that one. Ties included.
 bool Judge::follows_one() {
     const PreparedTrack& t = pair_.above[track_];
     const PrintedTrack& exact = pair_.upper[track_];
@@ -90,7 +90,9 @@ void Judge::report_gap(const CentreGap& gap) {
     if (exact.a != exact.b) {
         // Lengths from squared ones: s = sqrt(t^2 |b - a|^2). Truncated quotients are below, the next double is above.
         const Rational ux = exact.b[0] - exact.a[0], uy = exact.b[1] - exact.a[1], uu = ux * ux + uy * uy;
-        const auto down = [&](const Rational& a) { return a <= 0 ? 0 : enclose(QuadraticNumber{0, a, uu}, 80)[0].get_d(); };
+        const auto down = [&](const Rational& a) {
+            return a <= 0 ? 0 : enclose(QuadraticNumber{0, a, uu}, 80)[0].get_d();
+        };
         const auto up = [&](const Rational& a) {
             return a <= 0 ? 0 : std::nextafter(enclose(QuadraticNumber{0, a, uu}, 80)[1].get_d(), HUGE_VAL);
         };
@@ -100,7 +102,8 @@ void Judge::report_gap(const CentreGap& gap) {
             const Rational least = to[0] - from[1], most = to[1] - from[0];
             if (least <= 0 || (most - least) * 1000000000 > least) continue;
             piece.from_mm = down(from[0]), piece.to_mm = up(to[1]);
-            total[0] = std::nextafter(total[0] + down(least), 0), total[1] = std::nextafter(total[1] + up(most), HUGE_VAL);
+            total[0] = std::nextafter(total[0] + down(least), 0),
+            total[1] = std::nextafter(total[1] + up(most), HUGE_VAL);
             break;
         }
     }
@@ -115,7 +118,8 @@ std::vector<OpenPart> Judge::parts_of(const std::vector<Stretch>& gaps, const st
     const PreparedTrack& t = pair_.above[track_];
     std::vector<OpenPart> parts;
     for (const Stretch& gap : gaps) {
-        const int n = std::max(1, static_cast<int>(std::min(1e5, std::ceil((gap.hi - gap.lo) / (6 * t.half + 64 * pair_.margin)))));
+        const int n = std::max(
+            1, static_cast<int>(std::min(1e5, std::ceil((gap.hi - gap.lo) / (6 * t.half + 64 * pair_.margin)))));
         const double step = (gap.hi - gap.lo) / n;
         for (int i = 0; i < n; ++i) {
             OpenPart part;
@@ -192,7 +196,8 @@ void Judge::judge(int index) {
     // Stretches of the centre line too short for doubles to place them.
     if (wanted())
         for (const CentreGap& c : centre) {
-            const bool known = std::any_of(parts.begin(), parts.end(), [&](const OpenPart& p) { return p.gap.has_value(); });
+            const bool known =
+                std::any_of(parts.begin(), parts.end(), [&](const OpenPart& p) { return p.gap.has_value(); });
             const double from = enclose(c.from, 60)[0].get_d() * t.length, to = enclose(c.to, 60)[1].get_d() * t.length;
             if (!known) parts.push_back({index, {from - slack, to + slack}, c, {}, {}});
         }

@@ -13,42 +13,24 @@ namespace ribvault {
 /// A maximal stretch of one track's centre line that violates equation (1). It has a positive length, or the track is
 /// a dot and from_mm = to_mm = 0.
 struct UnsupportedPiece {
-    std::size_t track = 0;                         ///< index into upper.tracks
-    double from_mm = 0, to_mm = 0;                 ///< along the track from a; rounded outward: contains the stretch
-    double distance_lo = 0, distance_hi = 0;       ///< mm; enclosure of the greatest distance of its points to the
-                                                   ///< material below (more than ρ); infinite when there is none
-    std::array<double, 2> worst{0, 0};             ///< mm; a point of the stretch (rounded) at least distance_lo away
+    std::size_t track = 0;                    ///< index into upper.tracks
+    double from_mm = 0, to_mm = 0;            ///< along the track from a; rounded outward: contains the stretch
+    double distance_lo = 0, distance_hi = 0;  ///< mm; enclosure of the greatest distance of its points to the
+                                              ///< material below (more than ρ); infinite when there is none
+    std::array<double, 2> worst{0, 0};        ///< mm; a point of the stretch (rounded) at least distance_lo away
 };
 
-/// One piece of the boundary of an unsupported region: an arc of a circle about an end of a track, or a piece of a line
-/// parallel to a track. Traversed with the region on its left.
-struct BoundaryPiece {
-    enum class Curve { circle, line } curve = Curve::line;
-    bool upper = false;       ///< the curve belongs to the stadium of a track above (radius: half its width), else to
-                              ///< one below dilated by ρ (radius: half its width plus ρ)
-    std::size_t track = 0;    ///< index into upper.tracks or lower.tracks
-    int end = 0;              ///< circle: its centre is 0: a, 1: b
-    int side = 0;             ///< line: 1 left, -1 right of a -> b, at distance `radius` from it
-    Rational radius;          ///< mm, exact
-    bool left_turning = false;              ///< circle: traversed counter-clockwise
-    std::array<std::array<double, 2>, 2> from{}, to{};  ///< end points, mm: enclosures {{x lo, x hi}, {y lo, y hi}}
-};
-
-/// What of the material above has no material within ρ below: one connected component, or several that belong to tracks
-/// above that touch each other and violate (2) (`components`).
+/// What of the material above has no material within ρ below: a group of parts of tracks that touch each other and
+/// violate (2). Each connected component belongs to one group; a group may hold several.
 struct UnsupportedRegion {
-    std::vector<std::size_t> tracks;        ///< the tracks above to which it belongs
-    double area_lo = 0, area_hi = 0;        ///< mm²; enclosure
+    std::vector<std::size_t> tracks;          ///< the tracks above to which it belongs
+    double area_lo = 0, area_hi = 0;          ///< mm²; enclosure
     double distance_lo = 0, distance_hi = 0;  ///< mm; enclosure of the greatest distance of its points to the material
                                               ///< below; infinite when there is none
-    std::array<Rational, 2> witness;        ///< mm; a point of the region, exactly: in a stadium above, in none of the
-                                            ///< stadiums below dilated by ρ
-    double witness_distance = 0;            ///< mm from the witness to the material below, rounded down
-    bool witness_certified = true;          ///< false when only a place near the region could be given; none is known
-    /// The region's boundary as closed chains, outer ones counter-clockwise, holes clockwise; empty when it was not
-    /// traced (PrintedOptions::boundaries).
-    std::vector<std::vector<BoundaryPiece>> boundary;
-    bool component = false;                 ///< exactly one connected component; else a group as said above
+    std::array<Rational, 2> witness;  ///< mm; a point of the region, exactly: in a stadium above, in none of the
+                                      ///< stadiums below dilated by ρ
+    double witness_distance = 0;      ///< mm from the witness to the material below, rounded down
+    bool witness_certified = true;    ///< false when only a place near the region could be given; none is known
 };
 
 /// A stretch of a track above beside which something of its stadium violates (2): all that does lies in the stadiums of these
@@ -62,9 +44,9 @@ struct PrintedVerdict {
     bool centre_lines_supported = true;  ///< (1): every point of every judged centre line is within ρ of the material
                                          ///< below. Exact
     bool supported = true;               ///< (2): every point of every judged stadium is. Exact; implies (1)
-    std::vector<std::array<double, 2>> unsupported_length;  ///< per track above: enclosure [lo, hi], mm, of the length of
-                                                            ///< centre line that violates (1); {0, 0}: none
-    std::vector<UnsupportedPiece> pieces;    ///< in the order of the tracks, then along each
+    std::vector<std::array<double, 2>> unsupported_length;  ///< per track above: enclosure [lo, hi], mm, of the length
+                                                            ///< of centre line that violates (1); {0, 0}: none
+    std::vector<UnsupportedPiece> pieces;                   ///< in the order of the tracks, then along each
     std::vector<char> track_supported;       ///< per track above: 1 when its stadium satisfies (2) or is not judged
     std::vector<UnsupportedRegion> regions;  ///< empty when supported, or not asked for
     std::vector<OpenStretch> stretches;      ///< empty when supported, or not asked for
@@ -72,12 +54,11 @@ struct PrintedVerdict {
 };
 
 struct PrintedOptions {
-    std::vector<char> judged;      ///< per track above; 0: not judged, not material above either. Empty: all are
-    bool areas = true;             ///< decide (2) at all; else `supported` is that of (1)
-    bool regions = true;           ///< describe what violates (2)
-    bool stretches = false;        ///< where (2) is violated, without a description
-    bool boundaries = false;       ///< and trace its boundary
-    int area_cells = 300;          ///< effort of a region's area and distance: about so many cells
+    std::vector<char> judged;  ///< per track above; 0: not judged, not material above either. Empty: all are
+    bool areas = true;         ///< decide (2) at all; else `supported` is that of (1)
+    bool regions = true;       ///< describe what violates (2)
+    bool stretches = false;    ///< where (2) is violated, without a description
+    int area_cells = 300;      ///< effort of a region's area and distance: about so many cells
 };
 
 /// Decides for the layer `upper` over `lower` whether every point of the judged tracks of `upper` has material of
