@@ -126,6 +126,7 @@ private:
         r.verdict.layer = layer.layer;
         r.verdict.supported = true;  // layer 0 lies on the bed
         if (below) r.verdict = verify_layer(layer.layer, geometry(layer), geometry(*below), s);
+        if (swept.printed_above) output->print_above = judge_print(*swept.printed_above, *swept.held.printed, s);
         proof_ += (Time::now() - from).count();
 
         from = Time::now();
@@ -152,7 +153,6 @@ private:
         r.closed_gaps = swept.held.closed_gaps;
         r.patches = swept.held.patches;
         r.patch_length_mm = to_mm(swept.held.patch_length);
-        output->print_above = swept.held.verdict;
         r.perimeter_length_mm = p.length[of(TrackKind::outer_perimeter)] + p.length[of(TrackKind::inner_perimeter)];
         r.cover_length_mm = p.length[of(TrackKind::cover)];
         r.thin_wall_length_mm = p.length[of(TrackKind::thin_wall)];

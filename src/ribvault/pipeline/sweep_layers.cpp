@@ -159,7 +159,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
                 token->swept = std::move(previous);
                 token->below_swept = std::make_shared<const LayerMaterial>(token->material);
                 previous = std::make_shared<SweptLayer>(SweptLayer{
-                    std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), supports.blocked, {}});
+                    std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), supports.blocked, {}, nullptr});
             } else if (token->slice_index == last && previous) {
                 for (auto [e, end] = edges(previous->forest); e != end; ++e) previous->forest[*e].first_layer = true;
                 token->swept = std::move(previous);
@@ -167,15 +167,14 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
         });
         return token;
     };
-    PrintedLayer printed_above;
-    bool top = true;
+    std::shared_ptr<const PrintedLayer> printed_above;
     const auto hold = [&](TokenPtr token) {
         if (!token->swept) return token;
         holding.measure([&] {
             const LayerMaterial& material = token->swept->material;
-            token->swept->held = hold_print(std::move(*material.shell), token->swept->forest, top ? nullptr : &printed_above, settings);
-            printed_above = std::move(token->swept->held.printed);
-            top = false;
+            token->swept->held = hold_print(std::move(*material.shell), token->swept->forest, printed_above.get(), settings);
+            token->swept->printed_above = std::move(printed_above);
+            printed_above = token->swept->held.printed;
         });
         return token;
     };

@@ -32,7 +32,8 @@ struct SweptLayer {
     SupportForest forest;  ///< S_i, SupportEdge::first_layer set
     Region unsupported;    ///< what of layer i + 1 the walls copied from above and the shell did not hold up
     int blocked = 0;       ///< chains that could not be straightened without crossing a wall
-    HeldLayer held;        ///< what is printed, and the verdict on the layer above over it
+    HeldLayer held;        ///< what is printed
+    std::shared_ptr<const PrintedLayer> printed_above;  ///< on the layer above; nullptr: this is the top
 };
 
 /// Busy time of each stage in seconds, summed over threads.

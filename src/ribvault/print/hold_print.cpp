@@ -68,7 +68,7 @@ public:
     HeldLayer run() {
         lay_tracks();
         if (!above_) return std::move(held_);
-        outside_ = stretches_outside(*above_, held_.printed);  // the outline stays the same
+        outside_ = stretches_outside(*above_, *held_.printed);  // the outline stays the same
         std::vector<std::size_t> all(above_->tracks.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
         std::vector<OpenStretch> open = look(all);
@@ -76,14 +76,11 @@ public:
         for (int round = 0; settings_.gaps != Gaps::paper && !open.empty() && round < rounds; ++round) {
             close = close && close_gaps(open) > 0;
             if (!close) patch(open);
+            held_.mended = true;
+            const std::vector<Segment> before = segments_of(held_.plan);
             lay_tracks();
-            // More material below leaves what was held up as it was.
-            std::vector<std::size_t> still;
-            for (const OpenStretch& stretch : open)
-                if (still.empty() || still.back() != stretch.track) still.push_back(stretch.track);
-            open = look(still);
+            open = look(affected(open, before));
         }
-        measure_outside();
         return std::move(held_);
     }
 
@@ -97,46 +94,56 @@ private:
             held_.plan.tracks.push_back({{std::move(path)}, Entry::either_end, no_stop});
         }
         drop_tiny_steps(held_.plan);
-        held_.printed = printed_layer(held_.plan);
+        held_.printed = std::make_shared<const PrintedLayer>(printed_layer(held_.plan));
     }
 
     /// What of these tracks above (indices, increasing) inside the outline is not held up.
     std::vector<OpenStretch> look(const std::vector<std::size_t>& which) {
         PrintedOptions options;
         options.regions = false, options.stretches = true;
-        PrintedLayer upper, below = held_.printed;
+        PrintedLayer upper, below = *held_.printed;
         for (const std::size_t k : which) upper.tracks.push_back(above_->tracks[k]);
         below.tracks.insert(below.tracks.end(), outside_.begin(), outside_.end());
         PrintedVerdict inside = verify_printed(upper, below, rho_, options);
-        for (OpenStretch& stretch : inside.stretches) stretch.track = which[stretch.track];
-        PrintVerdict& verdict = held_.verdict;
-        verdict.supported = inside.supported;
-        verdict.stages += inside.stages;
-        verdict.unsupported_mm = sum(inside);
-        if (!inside.stretches.empty()) {
-            const OpenStretch& first = inside.stretches.front();
-            const Segment place = place_of(above_->tracks[first.track], first);
-            verdict.place = {to_mm((place.a.x + place.b.x) / 2), to_mm((place.a.y + place.b.y) / 2)};
+        // A track that is found wanting without a stretch that shows where is mended as a whole.
+        std::vector<char> shown(which.size(), 0);
+        for (const OpenStretch& stretch : inside.stretches) shown[stretch.track] = 1;
+        for (std::size_t k = 0; k < which.size(); ++k) {
+            if (inside.track_supported[k] || shown[k]) continue;
+            const Segment whole{lattice(upper.tracks[k].a), lattice(upper.tracks[k].b)};
+            inside.stretches.push_back({k, 0, to_mm(round_to_lattice(length(whole)))});
         }
+        std::stable_sort(inside.stretches.begin(), inside.stretches.end(), [](const OpenStretch& a, const OpenStretch& b) { return a.track < b.track; });
+        for (OpenStretch& stretch : inside.stretches) stretch.track = which[stretch.track];
         return std::move(inside.stretches);
     }
-    void measure_outside() {
-        if (outside_.empty()) return;
-        PrintedLayer upper;
-        upper.tracks = outside_;
-        for (PrintedTrack& t : upper.tracks) t.width = above_->tracks.front().width;
-        PrintedOptions options;
-        options.areas = options.regions = false;
-        const PrintedVerdict outside = verify_printed(upper, held_.printed, rho_, options);
-        held_.verdict.external_mm = sum(outside);
-        held_.verdict.stages += outside.stages;
-    }
-    static std::array<double, 2> sum(const PrintedVerdict& verdict) {
-        std::array<double, 2> total{0, 0};
-        for (const std::array<double, 2>& l : verdict.unsupported_length) total[0] += l[0], total[1] += l[1];
-        return total;
-    }
 
+    /// The tracks above that must be looked at again: those that were open, and those near a track that is not there any more
+    /// as it was. (A branch that reaches its junction takes the place of others there.)
+    std::vector<std::size_t> affected(const std::vector<OpenStretch>& open, std::vector<Segment> before) const {
+        const auto less = [](const Segment& s, const Segment& t) { return s.a != t.a ? s.a < t.a : s.b < t.b; };
+        std::vector<Segment> now = segments_of(held_.plan), gone;
+        std::sort(before.begin(), before.end(), less);
+        std::sort(now.begin(), now.end(), less);
+        std::set_difference(before.begin(), before.end(), now.begin(), now.end(), std::back_inserter(gone), less);
+        std::vector<char> again(above_->tracks.size(), 0);
+        for (const OpenStretch& stretch : open) again[stretch.track] = 1;
+        if (!gone.empty()) {
+            const NearestSegment near(std::move(gone));
+            for (std::size_t k = 0; k < again.size(); ++k) {
+                const PrintedTrack& track = above_->tracks[k];
+                Box box;
+                box.add(lattice(track.a)), box.add(lattice(track.b));
+                // Widths of the layer below are at most 3/2 d (thin walls); one d covers r + ρ and the rounding.
+                box.grow(round_to_lattice(track.width.get_d() / 2 * units_per_mm) + settings_.nozzle + settings_.support_radius);
+                near.visit(box, [&](std::uint32_t) { again[k] = 1; });
+            }
+        }
+        std::vector<std::size_t> which;
+        for (std::size_t k = 0; k < again.size(); ++k)
+            if (again[k]) which.push_back(k);
+        return which;
+    }
     /// Branches whose gap may be what lets something hang reach their junction from now on. How many walls are new.
     int close_gaps(const std::vector<OpenStretch>& open) {
         // What hangs lies within half a width of its stretch, and what would hold it within r + ρ of that.
@@ -241,10 +248,43 @@ private:
     std::vector<PrintedTrack> outside_;
 };
 
+std::array<double, 2> sum(const PrintedVerdict& verdict) {
+    std::array<double, 2> total{0, 0};
+    for (const std::array<double, 2>& l : verdict.unsupported_length) total[0] += l[0], total[1] += l[1];
+    return total;
+}
+
 }  // namespace
 
 HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings) {
     return Holder(std::move(shell), forest, above, settings).run();
+}
+
+PrintVerdict judge_print(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings) {
+    const Rational rho = exact_mm(settings.support_radius);
+    PrintedOptions options;
+    options.regions = false, options.stretches = true;
+    const std::vector<PrintedTrack> outside = stretches_outside(above, below);
+    PrintedLayer held = below;
+    held.tracks.insert(held.tracks.end(), outside.begin(), outside.end());
+    const PrintedVerdict inside = verify_printed(above, held, rho, options);
+    PrintVerdict verdict;
+    verdict.supported = inside.supported;
+    verdict.unsupported_mm = sum(inside);
+    verdict.stages = inside.stages;
+    if (!inside.stretches.empty()) {
+        const OpenStretch& first = inside.stretches.front();
+        const Segment place = place_of(above.tracks[first.track], first);
+        verdict.place = {to_mm((place.a.x + place.b.x) / 2), to_mm((place.a.y + place.b.y) / 2)};
+    }
+    if (outside.empty()) return verdict;
+    PrintedLayer upper;
+    upper.tracks = outside;
+    options.areas = options.stretches = false;
+    const PrintedVerdict hanging = verify_printed(upper, below, rho, options);
+    verdict.external_mm = sum(hanging);
+    verdict.stages += hanging.stages;
+    return verdict;
 }
 
 }  // namespace ribvault

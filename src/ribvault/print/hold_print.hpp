@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "ribvault/print/layer_plan.hpp"
 #include "ribvault/settings.hpp"
@@ -14,8 +15,8 @@ namespace ribvault {
 /// A layer that has another one on it.
 struct HeldLayer {
     LayerPlan plan;
-    PrintedLayer printed;       ///< the plan's extrusions
-    PrintVerdict verdict;       ///< of the layer above over this one
+    std::shared_ptr<const PrintedLayer> printed;  ///< the plan's extrusions
+    bool mended = false;        ///< something was changed after the whole layer above had been looked at
     int closed_gaps = 0;        ///< branches printed up to their junction because the gap would have let something hang
     int patches = 0;            ///< short tracks added where closing gaps was not enough
     Unit patch_length = 0;      ///< lattice units
@@ -27,10 +28,15 @@ struct HeldLayer {
 ///
 /// First with the gaps of Section 4.4. Where the verifier finds something of `above` that these leave unsupported, the
 /// branches nearby are printed up to their junction (settings.gaps == Gaps::proved; with Gaps::paper nothing is done and the
-/// verdict says what the gaps cost, with Gaps::none there are none from the start). Where that is not enough (where the
+/// verdict will say what the gaps cost, with Gaps::none there are none from the start). Where that is not enough (where the
 /// tracks of the shell leave a place open that B_i has), patches follow: what hangs, one layer lower, each end moved by up to
 /// ρ towards material, so that what the patches need below them shrinks to nothing like a wall's tip does.
 /// Patches lie inside the outline. Deterministic.
+/// What hold_print believes to be mended is proved by nobody yet: see judge_print.
 HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings);
+
+/// Equation (2) for the print of a layer (`above`) over that of the layer below it, decided exactly and for all of it, whatever
+/// came before.
+PrintVerdict judge_print(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings);
 
 }  // namespace ribvault
