@@ -50,6 +50,21 @@ class Generate(unittest.TestCase):
         pushed = sum(float(e) for e in re.findall(r"^G1 X\S+ Y\S+ E(\S+)", gcode, re.M))
         self.assertAlmostEqual(pushed, report["totals"]["filament_mm"], delta=0.01 * pushed)
 
+    def test_what_is_written_is_proved_when_read_back(self):
+        for options in ([], ["--strategy", "thrifty"], ["--gaps", "none", "--covers", "concentric"], ["--overlap", "0.7"]):
+            done = self.run_program(CUBE, "-o", "a.gcode", "--quiet", *options)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            radius = ["--overlap", "0.7"] if "--overlap" in options else []
+            judged = subprocess.run([PROGRAM, "verify", "a.gcode", "--inside", *radius], cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(judged.returncode, 0, str(options) + judged.stdout)
+
+    def test_the_papers_gaps_let_something_hang(self):
+        done = self.run_program(CUBE, "-o", "a.gcode", "--gaps", "paper")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("hang in air", done.stdout)
+        judged = subprocess.run([PROGRAM, "verify", "a.gcode", "--inside"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(judged.returncode, 1, judged.stdout)
+
     def test_quiet_says_nothing(self):
         done = self.run_program(CUBE, "-o", "a.gcode", "--quiet")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))

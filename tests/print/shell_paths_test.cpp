@@ -182,7 +182,7 @@ TEST_CASE("covers around a cavity link along curved borders") {
 TEST_CASE("places narrower than one track get a track of their width, those just wider a perimeter, then a cover") {
     const auto layer = [](Unit width, bool thin = true) {
         TrackSettings tracks;
-        tracks.thin_walls = thin;
+        tracks.thin_walls = thin, tracks.fill_gaps = false;
         return shell_paths({rectangle(0, 0, 10 * mm, width)}, {}, Settings{}, 0, tracks);
     };
     const LayerPaths wall = layer(32000);

@@ -19,7 +19,8 @@ __attribute__((format(printf, 2, 3))) void print(std::string& text, const char* 
 void describe_verdict(std::string& text, const RunReport& r) {
     const auto layers = static_cast<int>(r.layers.size());
     if (r.verdict.proved)
-        print(text, "proved    equation (2) holds on all %d layers, decided exactly\n", layers);
+        print(text, "proved    equation (2) holds on all %d layers, decided exactly%s\n", layers,
+              r.verdict.print_proved ? ",\n          for the geometry and for what is extruded" : "");
     else
         print(text, "NOT PROVED  %zu of %d layers are not supported:\n", r.verdict.layers_refuted.size(), layers);
     int shown = 0;
@@ -30,6 +31,14 @@ void describe_verdict(std::string& text, const RunReport& r) {
                   hole->witness[0], hole->witness[1]);
         else
             print(text, "  layer %d: %s\n", layer.layer, layer.verdict.malformed.c_str());
+    }
+    if (!r.verdict.print_proved) {
+        print(text, "%s  of what is extruded, %.3f mm on %zu of %d layers hang in air:\n", r.settings.gaps == Gaps::paper ? "warning " : "NOT PROVED",
+              r.verdict.print_unsupported_mm[1], r.verdict.print_layers_refuted.size(), layers);
+        int named = 0;
+        for (const LayerReport& layer : r.layers)
+            if (!layer.print.supported && named++ < 5)
+                print(text, "  layer %d, near (%.3f, %.3f) mm\n", layer.layer, layer.print.place[0], layer.print.place[1]);
     }
     if (!r.verdict.external_overhangs.empty()) {
         double area = 0;
