@@ -75,7 +75,7 @@ TEST_CASE("every tool has its own E and its own filament", "[gcode]") {
     CHECK(track(print, 0, 3).width == track(print, 0, 0).width);
 }
 
-TEST_CASE("width from E is the rectangle's, rounded down to 1 um", "[gcode]") {
+TEST_CASE("width from E is the rectangle's, to 1 um", "[gcode]") {
     // 0.4 * 0.2 * 10 mm3 of 1.75 mm filament
     const double e = 0.8 / (std::numbers::pi / 4 * 1.75 * 1.75);
     const std::string text = "G1 Z.2\nG1 X10 E" + std::to_string(e + 1e-6) + "\n";

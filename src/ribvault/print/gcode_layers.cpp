@@ -179,7 +179,7 @@ void LayerCollector::resolve_widths(GcodePrint& print, GcodeLayer& layer, const 
         const double diameter = hints.filaments[std::min(static_cast<std::size_t>(flow.tool), hints.filaments.size() - 1)];
         const double area = flow.volumetric ? 1 : std::numbers::pi / 4 * diameter * diameter;
         const double um = flow.length > 0 ? 1000 * flow.pushed * area / (flow.length * height) : 1;
-        const double clamped = std::clamp(std::floor(um + 1e-6), 1.0, static_cast<double>(widest) / 1000000);
+        const double clamped = std::clamp(std::round(um), 1.0, static_cast<double>(widest) / 1000000);
         t.width = static_cast<std::int64_t>(clamped) * 1000000;
     }
 }

@@ -48,8 +48,8 @@ public:
     ///
     /// Heights: as the file says, except for bridges, which it describes as round threads: theirs is their layer's. Where it does
     /// not say: the distance to the next lower layer. Widths that the file does not say: pushed volume over length
-    /// times height, the rectangle of the same cross-section, rounded down to 1 µm: no wider than the round-edged track
-    /// that is printed. Volumes of stretches below 0.25 mm are pooled, as E is rounded.
+    /// times height, the rectangle of the same cross-section, to 1 µm: narrower than the round-edged track that is
+    /// printed by 0.21 times the height. Volumes of stretches below 0.25 mm are pooled, as E is rounded.
     void finish(GcodePrint& print, const LayerHints& hints);
 
 private:
