@@ -23,14 +23,15 @@ Region without(const Region& a, const Region& b) { return a.empty() || b.empty()
 Region united(const Region& a, const Region& b) { return a.empty() ? b : b.empty() ? a : clip(ClipperLib::ctUnion, a, b); }
 
 /// The skeleton of a piece, as wide as fits between material within r: what opening takes away from its erosions
-/// (Lantuéjoul), without the branches of blunt corners. Empty when the piece is narrower than a track.
-Region tear_open(const Region& piece, double r) {
+/// (Lantuéjoul), without the branches of blunt corners; or only its deepest place. Empty when the piece is narrower than a track.
+Region tear_open(const Region& piece, double r, bool deepest_only) {
     const double step = r / 2;
     Region skeleton, level = piece;
     if (grow(piece, -r).empty()) return {};
     while (!level.empty()) {
         const Region next = grow(level, -step);
         const Region rest = next.empty() ? level : grow(grow(without(level, grow(next, step)), -step / 20), step / 20);
+        if (deepest_only) skeleton.clear();
         skeleton.insert(skeleton.end(), rest.begin(), rest.end());
         level = next;
     }
@@ -71,7 +72,7 @@ private:
             Region grown = room.empty() || own.empty() ? Region{} : intersect(grow(own, step_), room);
             for (const Region& piece : connected_pieces(room)) {
                 if (!intersect(piece, grown).empty()) continue;
-                const Region tear = tear_open(piece, r_);
+                const Region tear = tear_open(piece, r_, rules_.columns);
                 result_.tears += !tear.empty();
                 grown = united(grown, tear);
             }

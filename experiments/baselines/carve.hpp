@@ -11,8 +11,8 @@ namespace ribvault::baselines {
 /// thick, until a round gains less than 0.5 %. Islands of material that end over a cavity get one straight bridge each, in the
 /// direction in which it is shortest. Like the published method (its errata) it does not see overhanging edges.
 ///
-/// Support-free hollowing in the spirit of Wang et al. (TVCG 2018): the same growth, greedy and as large as it
-/// goes, but with walls two tracks thick and no bridges: wherever material above would hang (a roof flatter than
+/// Support-free hollowing in the spirit of Wang et al. (TVCG 2018): the same growth from the deepest place of each pocket, greedy
+/// and as large as it goes, but with walls two tracks thick and no bridges: wherever material above would hang (a roof flatter than
 /// 45°, an edge, an island) a column two tracks thick is left down to the floor. A bound in their spirit; their method cuts
 /// the inside into parts and optimises, and leaves more material.
 struct CarvingRules {
