@@ -86,7 +86,7 @@ Json run(const std::string& method, const Options& o) {
     Mesh mesh;
     MeshFacts facts;
     const Placement placement = read_placed(o.model, o.placement(), mesh, facts);
-    Json result = {{"method", method}, {"mesh", facts_json(facts)}};
+    Json result = {{"method", method}, {"mesh", facts_json(facts)}, {"scale", placement.scale.get_d()}};
     if (method == "measure") return result;
     if (method == "place") return write_stl(o.output, mesh, placement), result;
 

@@ -14,6 +14,7 @@ ROOT = HERE.parent
 CGAL_DATA = pathlib.Path("/usr/share/doc/libcgal-dev/data.tar.gz")
 FORMATS = {".stl", ".obj", ".off", ".ply", ".3mf"}
 SAME_VOLUME = 0.001  # the paper's model: volume within 0.1 %
+LARGE_BED = ("--bed", "2000,2000,2000")  # Figure 24 and Section 5.2 have objects larger than a common printer
 SAME_HEIGHT = 0.03   # heights in the paper are rounded to millimetres
 
 
@@ -36,8 +37,7 @@ class Model:
             # a fraction stays one
             options["--scale"] = (f"{factor:.9g}" if scale == "1" else
                                   f"{factor:.9g}/{scale[2:]}" if scale.startswith("1/") else f"{float(scale) * factor:.9g}")
-        flat = tuple(x for pair in options.items() for x in pair)
-        return dataclasses.replace(self, placement=flat)
+        return dataclasses.replace(self, placement=(*(x for pair in options.items() for x in pair), *LARGE_BED))
 
 
 def paper_rows(table):
@@ -67,15 +67,16 @@ class Registry:
                 return self.models[entry["name"]]
         raise KeyError(f"{table}: no model for {paper_name} in models.json")
 
-    def measure(self, file, *options):
-        """Volume, size and triangles as ribvault reads them; None when it refuses the file."""
-        spec = {"file": file_digest(file), "options": options}
+    def measure(self, file, up):
+        """(volume, height) in the file's units as ribvault reads them, or None when it refuses the file."""
+        spec = {"file": file_digest(file), "up": up}
         facts = self.measured.load(spec)
         if facts is None:
-            done = subprocess.run([self.measure_program, "measure", file, *options], capture_output=True, text=True)
-            facts = json.loads(done.stdout)["mesh"] if done.returncode == 0 else {"refused": done.stderr.strip()}
+            done = subprocess.run([self.measure_program, "measure", file, "--height", "10", "--up", up, "--bed", "10000,10000,10000"],
+                                  capture_output=True, text=True)
+            facts = json.loads(done.stdout) if done.returncode == 0 else {"refused": done.stderr.strip()}
             self.measured.save(spec, facts)
-        return None if "refused" in facts else facts
+        return None if "refused" in facts else (facts["mesh"]["volume_mm3"] / facts["scale"] ** 3, 10 / facts["scale"])
 
     def _solids(self):
         folder = self.folder / "solids"
@@ -126,29 +127,28 @@ class Registry:
         names = [plain(n) for n in (*entry.get("files", ()), entry["name"], entry["title"])]
         named = stem in names or str(entry.get("thing", "-")) in file.stem
         volume, height, up = entry.get("volume_mm3"), entry.get("height_mm"), entry.get("up", "z")
-        facts = self.measure(file, "--height", "10", "--up", up, "--bed", "100000,100000,100000")
-        native = self.measure(file, "--scale", "1", "--up", up, "--bed", "1e7,1e7,1e7")
-        if facts is None or native is None:
+        native = self.measure(file, up)
+        if native is None or native[0] <= 0:
             return None
         turn = ("--up", up) if up != "z" else ()
         if volume:
             # the scale at which the volume is the paper's, and whether the height then is too
-            scale = (volume / native["volume_mm3"]) ** (1 / 3) if native["volume_mm3"] > 0 else 0
-            tall = native["size_mm"][2] * scale
+            scale = (volume / native[0]) ** (1 / 3)
+            tall = native[1] * scale
             fits = height is not None and abs(tall / height - 1) <= SAME_HEIGHT
             given = entry.get("scale")
             if given:
                 a, _, b = given.partition("/")
-                at_given = native["volume_mm3"] * (float(a) / float(b or 1)) ** 3
+                at_given = native[0] * (float(a) / float(b or 1)) ** 3
                 if abs(at_given / volume - 1) <= SAME_VOLUME:
                     return file, ("--scale", given, *turn), "the paper's model"
-            elif abs(native["volume_mm3"] / volume - 1) <= SAME_VOLUME and (fits or (named and height is None)):
+            elif abs(native[0] / volume - 1) <= SAME_VOLUME and (fits or (named and height is None)):
                 return file, ("--scale", "1", *turn), "the paper's model"
             if named:
                 origin = "the paper's model (scaled to its volume; its height agrees)" if fits else "stand-in (named like it)"
                 return file, ("--scale", f"{scale:.9g}", *turn), origin
         elif named:
-            return file, (("--height", str(height)) if height else ("--scale", "1")) + turn, "stand-in (the paper gives no volume)"
+            return file, (("--height", str(height)) if height else ("--scale", "1", *LARGE_BED)) + turn, "stand-in (the paper gives no volume)"
         return None
 
     def entry(self, group, name):

@@ -12,8 +12,6 @@ import time
 from lab.registry import HERE, ROOT, Model
 from lab.store import digest, file_digest
 
-BED = ("--bed", "2000,2000,2000")  # objects of Figure 24 are larger than a common printer
-
 
 @dataclasses.dataclass(frozen=True)
 class Run:
@@ -51,7 +49,7 @@ def program(name):
 
 def generate(run, folder):
     report = folder / "report.json"
-    code, text, cost = measured([program("ribvault"), "generate", run.model.file, *run.model.placement, *BED, *run.settings, "--seed",
+    code, text, cost = measured([program("ribvault"), "generate", run.model.file, *run.model.placement, *run.settings, "--seed",
                                  run.seed, "-o", folder / "out.gcode", "--report", report, "--quiet"], folder)
     if code not in (0, 1):
         return {"refused": text.strip() or f"exit code {code}"}
@@ -63,14 +61,14 @@ def generate(run, folder):
 
 
 def baseline(run, folder):
-    code, text, cost = measured([program("ribvault_baselines"), run.kind, run.model.file, *run.model.placement, *BED, *run.settings], folder)
+    code, text, cost = measured([program("ribvault_baselines"), run.kind, run.model.file, *run.model.placement, *run.settings], folder)
     if code != 0:
         return {"refused": text.strip() or f"exit code {code}"}
     return {**json.loads((folder / "stdout").read_text()), **cost}
 
 
 def floating(run, folder):
-    code, text, cost = measured([program("ribvault_floating"), run.model.file, *run.model.placement, *BED, *run.settings], folder)
+    code, text, cost = measured([program("ribvault_floating"), run.model.file, *run.model.placement, *run.settings], folder)
     if code != 0:
         return {"refused": text.strip() or f"exit code {code}"}
     return {**json.loads((folder / "stdout").read_text()), **cost}
