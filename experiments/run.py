@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Runs experiments and writes their tables. Usage: experiments/run.py [NAME ...] [options]; scripts/experiments builds first.
 
 Names: table2 table3 table4 table5 figure24 infill ablations exactness peers solids; none: all. Results are kept under

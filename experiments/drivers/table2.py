@@ -24,13 +24,16 @@ def build(lab):
             runs = lab.over_seeds(model, *covers)
             volumes, full = lab.values(runs, "totals.material_mm3"), lab.value(runs[0], "mesh.volume_mm3")
             ours = mean(volumes)
-            # the cavity methods need no covers of their own: every layer of a wall is as thick as a track
-            carve, hollow = Run("carve", model, covers), Run("hollow", model, covers)
-            carved = lab.value(carve, "material_mm3")
+            compared = real or model.name == "bunny00"  # one stand-in is enough for the slow methods
+
+            def other(kind, path):
+                return lab.value(Run(kind, model, covers), path) if compared else None
+
+            carved = other("carve", "material_mm3")
             table.add(model.title, full, covers[1], published[0] if real else None, spread(volumes), percent_off(ours, published[0]) if real else None,
                       number(row["ours_pct"]) if real else None, 100 * (1 - ours / full) if ours and full else None,
                       published[1] if real else None, carved, percent_off(carved, published[1]) if real else None,
-                      published[2] if real else None, lab.value(hollow, "material_mm3"),
-                      lab.proved(runs), lab.value(carve, "judgement.layers_refuted"),
-                      lab.value(hollow, "judgement.layers_refuted"), lab.why(runs[0]) or model.origin)
+                      published[2] if real else None, other("hollow", "material_mm3"), lab.proved(runs),
+                      other("carve", "judgement.layers_refuted"), other("hollow", "judgement.layers_refuted"),
+                      lab.why(runs[0]) or model.origin)
     return [table]

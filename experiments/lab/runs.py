@@ -15,7 +15,7 @@ from lab.store import digest, file_digest
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    kind: str                # generate, carve, hollow, infill, floating, prusa, cura
+    kind: str                # generate, carve, hollow, infill, floating, prusa, cura, own
     model: Model
     settings: tuple = ()     # options of the program, ("--top-layers", "0", ...)
     seed: int = 1
@@ -23,6 +23,10 @@ class Run:
     @property
     def name(self):
         return " ".join([self.kind, self.model.name, *self.settings, *([f"seed {self.seed}"] if self.seed != 1 else [])])
+
+
+class NotHere(Exception):
+    """Something is missing on this machine: no result, and nothing to keep."""
 
 
 def measured(command, folder):
@@ -81,7 +85,8 @@ def peer(run, folder):
 
 KINDS = {"generate": (generate, ["ribvault"]), "carve": (baseline, ["ribvault_baselines"]), "hollow": (baseline, ["ribvault_baselines"]),
          "infill": (baseline, ["ribvault_baselines"]), "floating": (floating, ["ribvault_floating"]),
-         "prusa": (peer, ["ribvault_baselines", "prusa-slicer"]), "cura": (peer, ["ribvault_baselines", "CuraEngine"])}
+         "prusa": (peer, ["ribvault_baselines", "prusa-slicer"]), "cura": (peer, ["ribvault_baselines", "CuraEngine"]),
+         "own": (peer, ["ribvault_baselines", "ribvault"])}
 
 
 @functools.cache
@@ -93,8 +98,8 @@ def version(kind):
         if not path or not pathlib.Path(path).exists():
             return None
         files.append(path)
-    if kind in ("prusa", "cura"):
-        files += [HERE / "lab/peers.py", HERE / "lab/sampling.py"]
+    if kind in ("prusa", "cura", "own"):
+        files += [program("ribvault"), HERE / "lab/peers.py", HERE / "lab/sampling.py"]
     return digest([file_digest(f) for f in files])
 
 
@@ -117,6 +122,9 @@ def execute(run, store):
     result = store.load(wanted)
     if result is None:
         with tempfile.TemporaryDirectory(prefix="ribvault-run-") as scratch:
-            result = KINDS[run.kind][0](run, pathlib.Path(scratch))
+            try:
+                result = KINDS[run.kind][0](run, pathlib.Path(scratch))
+            except NotHere as missing:
+                return {"refused": f"not on this machine: {missing}"}
         store.save(wanted, result)
     return result
