@@ -18,7 +18,7 @@ def command(kind, model, output):
                 "--nozzle-diameter", "0.4", "--perimeters", "1", "--top-solid-layers", "1", "--bottom-solid-layers", "1",
                 "--fill-pattern", "lightning", "--fill-density", "15%", "--skirts", "0", "--filament-diameter", "1.75", *widths]
     if kind == "cura":
-        settings = {"infill_pattern": "lightning", "infill_line_distance": "2.6", "wall_line_count": 1, "top_layers": 1, "bottom_layers": 1,
+        settings = {"infill_pattern": "lightning", "infill_line_distance": "2.6", "wall_line_count": 1, "top_layers": 1, "bottom_layers": 1, "initial_bottom_layers": 1,
                     "layer_height": 0.2, "layer_height_0": 0.2, "line_width": 0.4, "machine_nozzle_size": 0.4, "adhesion_type": "none",
                     "skirt_line_count": 0, "machine_width": 250, "machine_depth": 250, "machine_height": 250,
                     "machine_center_is_zero": "false", "center_object": "false"}
