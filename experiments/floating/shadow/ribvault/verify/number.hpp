@@ -35,7 +35,6 @@ public:
     friend Interval operator-(Interval p) { return -p.a_; }
     Interval& operator+=(Interval q) { return a_ += q.a_, *this; }
     Interval& operator-=(Interval q) { return a_ -= q.a_, *this; }
-    friend Interval abs(Interval p) { return std::abs(p.a_); }
 
 private:
     double a_;
@@ -101,3 +100,7 @@ NT number(double a) {
 }
 
 }  // namespace ribvault::verify
+
+namespace CGAL {
+inline ribvault::verify::Interval abs(const ribvault::verify::Interval& a) { return std::abs(a.inf()); }
+}  // namespace CGAL
