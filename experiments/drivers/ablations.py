@@ -23,7 +23,7 @@ def build(lab):
 
 def sweep(lab, option, values):
     table = Table(f"ablation_{option}", f"--{option}, one cover",
-                  [("model", ""), (option, ""), ("material mm³", ""), ("supports mm³", ""), ("seconds", ".2f"), ("proved", ""), ("what", "")])
+                  [("model", ""), (option, ""), ("material mm³", ""), ("supports mm³", ""), ("CPU s", ".2f"), ("proved", ""), ("what", "")])
     series = {}
     for name in MODELS:
         model = lab.registry[name]
@@ -37,7 +37,7 @@ def sweep(lab, option, values):
             else:
                 runs = lab.over_seeds(model, *ONE_COVER, f"--{option}", value)[:3]
             supports = lab.values(runs, "totals.support_volume_mm3")
-            table.add(model.title, value, spread(lab.values(runs, "totals.material_mm3")), spread(supports), mean(lab.values(runs, "seconds")),
+            table.add(model.title, value, spread(lab.values(runs, "totals.material_mm3")), spread(supports), mean(lab.values(runs, "cpu_seconds")),
                       lab.proved(runs), lab.why(runs[0]) or model.origin)
             if supports:
                 series.setdefault(model.title, []).append((float(value), mean(supports)))

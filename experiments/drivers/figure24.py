@@ -12,10 +12,10 @@ def build(lab):
     chosen = [owl if owl.file else lab.registry.or_stand_in(owl), lab.registry["moai"]]
     table = Table("figure24", "Object size against material, no cover",
                   [("model", ""), ("height mm", ".0f"), ("full mm³", ".0f"), ("ours mm³", ".0f"), ("reduction %", ".2f"), ("supports mm³", ".0f"),
-                   ("seconds", ".2f"), ("peak MB", ".0f"), ("proved", ""), ("what", "")],
+                   ("CPU s", ".2f"), ("peak MB", ".0f"), ("proved", ""), ("what", "")],
                   note="The paper draws this curve for the owl (up to 150 mm) and prints no numbers; Table 2 has one point, 88.94 % at 59 mm.")
     growth = Table("figure24_growth", "Growth with height: exponent e of height^e, least squares over all sizes from 30 mm",
-                   [("model", ""), ("full volume", ".2f"), ("material", ".2f"), ("supports", ".2f"), ("seconds", ".2f"), ("memory", ".2f")])
+                   [("model", ""), ("full volume", ".2f"), ("material", ".2f"), ("supports", ".2f"), ("CPU time", ".2f"), ("memory", ".2f")])
     series = {}
     if not owl.file:
         table.add("Owl", *[None] * 8, "the paper's file is missing (--models)")
@@ -29,7 +29,7 @@ def build(lab):
             sized = type(model)(model.name, model.title, model.file, ("--height", str(height), "--up", up, *LARGE_BED), model.origin)
             run = Run("generate", sized, NO_COVER)
             full, ours = lab.value(run, "mesh.volume_mm3"), lab.value(run, "totals.material_mm3")
-            numbers = [lab.value(run, p) for p in ("totals.support_volume_mm3", "seconds", "peak_memory_mb")]
+            numbers = [lab.value(run, p) for p in ("totals.support_volume_mm3", "cpu_seconds", "peak_memory_mb")]
             table.add(model.title, height, full, ours, 100 * (1 - ours / full) if ours and full else None, *numbers,
                       lab.value(run, "verdict.proved"), lab.why(run) or model.origin)
             if ours and full:
