@@ -84,6 +84,22 @@ def far_tip(width=40.0, height=16.0, pit=10.0, tip=3.0):
     return triangles
 
 
+def slope45(outer=20, wide=15, narrow=5, height=10):
+    """A block with a square hole whose sides lean in by exactly 45 degrees, turned by the angle of the 3-4-5 triangle: all along the hole
+    every layer reaches exactly the layer height, which is exactly rho, over the one below. All coordinates are integers."""
+    def square(s, z):
+        along, across = (4 * s // 5, 3 * s // 5), (-3 * s // 5, 4 * s // 5)
+        return [tuple(float(a * along[k] + b * across[k]) for k in (0, 1)) + (float(z),) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    bottom, top, low, high = square(outer, 0), square(outer, height), square(wide, 0), square(narrow, height)
+    triangles = []
+    for k in range(4):
+        j = (k + 1) % 4
+        for a, b, c, d in ((bottom[k], bottom[j], top[j], top[k]), (top[k], top[j], high[j], high[k]), (high[k], high[j], low[j], low[k]),
+                           (low[k], low[j], bottom[j], bottom[k])):
+            triangles += [(a, b, c), (a, c, d)]
+    return triangles
+
+
 CORNERS = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
 TETRAHEDRA = [(0, 5, 1, 6), (0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6)]
 
@@ -160,7 +176,7 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(HERE / "models/cube20.stl", folder / "cube20.stl")
     cone = lathe([(3.0, 0.0), (12.0, 20.0)])
-    for name, triangles in {"sphere": sphere(), "arch": arch(), "cone": cone, "low_roof": low_roof(), "far_tip": far_tip(),
+    for name, triangles in {"sphere": sphere(), "arch": arch(), "cone": cone, "low_roof": low_roof(), "far_tip": far_tip(), "slope45": slope45(),
                             "gyroid": gyroid(), "blobs": blobs()}.items():
         write_stl(folder / f"{name}.stl", triangles)
 

@@ -23,7 +23,7 @@ def build(lab):
     doubles = Table("exactness_doubles", "The same checks in doubles: layers as generated, and 10 nm on either side of the threshold",
                     [("model", ""), ("layers", "d"), ("false alarms", "d"), ("missed", "d"), ("thresholds tried", "d"), ("false alarms there", "d"),
                      ("missed there", "d"), ("lost their way", "d"), ("what", "")])
-    for name in ("cube", "sphere", "cone", "low_roof", "bunny", "moai", "kitten", "bunny00"):
+    for name in ("cube", "sphere", "cone", "low_roof", "slope45", "bunny", "moai", "kitten", "bunny00"):
         model = lab.registry[name]
         if not model.file:
             doubles.add(model.title, *[None] * 7, "the file is missing (--models)")

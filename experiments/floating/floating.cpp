@@ -38,17 +38,18 @@ LayerGeometry shortened(LayerGeometry lower, std::size_t track, Unit by) {
 }
 
 void compare(int layer, const LayerGeometry& above, const LayerGeometry& below, const Settings& s, long& false_alarms, long& missed, long& errors, long* refuted = nullptr) {
-    const bool truth = verify_layer(layer, above, below, s).supported;
-    bool believed = false;
+    const LayerVerdict truth = verify_layer(layer, above, below, s);
+    LayerVerdict believed;
     try {
-        believed = verify_layer_floating(layer, above, below, s).supported;
+        believed = verify_layer_floating(layer, above, below, s);
     } catch (const std::exception&) {
         ++errors;  // doubles may lead the algorithm where it must not come
         return;
     }
-    false_alarms += truth && !believed;
-    missed += !truth && believed;
-    if (refuted) *refuted += !truth;
+    const bool internal = truth.supported, external = truth.external.has_value();
+    false_alarms += (internal && !believed.supported) || (!external && believed.external);
+    missed += (!internal && believed.supported) || (external && !believed.external);
+    if (refuted) *refuted += !internal;
 }
 
 void try_layer(int layer, const LayerGeometry& above, const LayerGeometry& below, const Settings& s, bool thresholds, Tally& tally) {
