@@ -61,7 +61,7 @@ def generate(run, folder):
     overhangs = full["verdict"].pop("external_overhangs")
     return {"mesh": full["input"]["mesh"], "settings": full["settings"], "totals": full["totals"],
             "verdict": {**full["verdict"], "external_layers": len(overhangs)}, "stage_seconds": full["machine"]["stage_seconds"],
-            "threads": full["machine"]["threads"], **cost}
+            "threads": full["machine"]["threads"], **cost, "peak_memory_mb": full["machine"]["peak_memory_mb"]}
 
 
 def baseline(run, folder):
@@ -108,9 +108,12 @@ def input_digest(file):
     return file_digest(file)
 
 
+FORMAT = 2  # raise it when a kind of run measures something else or more
+
+
 def spec(run):
     """All that decides a result."""
-    return {"kind": run.kind, "model": run.model.name, "input": input_digest(run.model.file), "placement": list(run.model.placement),
+    return {"format": FORMAT, "kind": run.kind, "model": run.model.name, "input": input_digest(run.model.file), "placement": list(run.model.placement),
             "settings": list(run.settings), "seed": run.seed, "version": version(run.kind)}
 
 
