@@ -13,8 +13,11 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "experiments"))
-os.environ["RIBVAULT_BIN"] = str(pathlib.Path(os.environ["RIBVAULT"]).parent)
+PROGRAMS = tempfile.TemporaryDirectory()  # ribvault alone: the slow comparisons are not run here
+os.symlink(os.path.realpath(os.environ["RIBVAULT"]), pathlib.Path(PROGRAMS.name) / "ribvault")
+os.environ["RIBVAULT_BIN"] = PROGRAMS.name
 
+from lab.laboratory import Laboratory  # noqa: E402
 from lab.store import Damaged, Store  # noqa: E402
 from lab.tables import Table, growth_exponent, percent_off, spread  # noqa: E402
 
@@ -100,7 +103,7 @@ class WholeRuns(Scratch):
         self.assertEqual(done.returncode, 0, done.stderr)
         after = self.results()
         self.assertEqual({k: after[k] for k in before}, before)
-        self.assertGreaterEqual(len(after), 8)
+        self.assertEqual(len(after), 9)
         self.run_experiments("solids")
         self.assertEqual(self.results(), after)
         self.compare_with_docs(self.table("solids"))
@@ -128,10 +131,8 @@ class WholeRuns(Scratch):
         self.assertEqual(done.returncode, 0, done.stderr)
         plan = json.loads((self.folder / "plan.json").read_text())
         self.assertTrue(all(" " in name for name in plan.values()))
-        paper = (ROOT / "experiments/paper/table6_external.csv").read_text()
-        self.assertTrue(paper.startswith("# source: Tricard"))
-        sys.path.insert(0, str(ROOT / "experiments"))
-        from lab.laboratory import Laboratory
+        for file in (ROOT / "experiments/paper").iterdir():
+            self.assertTrue(file.read_text().startswith("# source: Tricard"), file)
         lab = Laboratory(self.folder)
         rows = list(lab.paper_models("table2_reduction"))
         self.assertEqual(sum(1 for _, model, _ in rows if model is None), 7)
