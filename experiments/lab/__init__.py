@@ -1,0 +1,1 @@
+"""The small library under every experiment: models, runs, stored results, tables."""

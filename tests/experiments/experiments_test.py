@@ -1,0 +1,143 @@
+"""The experiments' library: stored results, resuming, missing models, and the small numbers of experiments/README.md rerun."""
+import csv
+import io
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "experiments"))
+PROGRAMS = tempfile.TemporaryDirectory()  # ribvault alone: the slow comparisons are not run here
+os.symlink(os.path.realpath(os.environ["RIBVAULT"]), pathlib.Path(PROGRAMS.name) / "ribvault")
+os.environ["RIBVAULT_BIN"] = PROGRAMS.name
+
+from lab.laboratory import Laboratory  # noqa: E402
+from lab.store import Damaged, Store  # noqa: E402
+from lab.tables import Table, growth_exponent, percent_off, spread  # noqa: E402
+
+
+class Scratch(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def command(self, *arguments):
+        return [sys.executable, str(ROOT / "experiments/run.py"), *arguments, "--results", str(self.folder), "--seeds", "1"]
+
+    def run_experiments(self, *arguments):
+        return subprocess.run(self.command(*arguments), capture_output=True, text=True)
+
+    def results(self):
+        return {f.name: f.stat().st_mtime_ns for f in (self.folder / "runs").glob("*.json")}
+
+    def table(self, name):
+        return list(csv.DictReader(io.StringIO((self.folder / "tables" / f"{name}.csv").read_text())))
+
+
+class StoredResults(Scratch):
+    def setUp(self):
+        super().setUp()
+        self.store, self.spec = Store(self.folder), {"model": "cube", "seed": 1}
+        self.store.save(self.spec, {"material": 1233.25})
+
+    def test_what_was_saved_is_loaded(self):
+        self.assertEqual(self.store.load(self.spec), {"material": 1233.25})
+        self.assertIsNone(self.store.load({"model": "cube", "seed": 2}))
+        self.assertEqual(self.store.check(), [])
+
+    def damage(self, change):
+        path = self.store.path(self.spec)
+        path.write_text(change(path.read_text()))
+        self.assertEqual(len(self.store.check()), 1)
+        self.assertIsNone(self.store.load(self.spec))
+        self.assertEqual([f.suffix for f in self.folder.iterdir()], [".damaged"])
+
+    def test_a_number_changed_by_hand_is_found(self):
+        self.damage(lambda text: text.replace("1233.25", "1033.25"))
+
+    def test_a_changed_spec_is_found(self):
+        self.damage(lambda text: text.replace('"seed": 1', '"seed": 7'))
+
+    def test_a_cut_file_is_found(self):
+        self.damage(lambda text: text[: len(text) // 2])
+
+    def test_a_result_under_another_name_is_found(self):
+        path = self.store.path(self.spec)
+        with self.assertRaises(Damaged):
+            self.store.read(path.rename(path.with_name("0" * 64 + ".json")))
+
+
+class Tables(unittest.TestCase):
+    def test_three_formats(self):
+        table = Table("t", "", [("model", ""), ("mm³", ".1f"), ("proved", "")])
+        table.add("a|b_c", 1.25, True)
+        table.add("missing")
+        self.assertEqual(table.markdown().splitlines()[2:], ["| a\\|b_c | 1.2 | yes |", "| missing |  |  |"])
+        self.assertEqual(table.csv().splitlines()[1:], ["a|b_c,1.25,True", "missing,,"])
+        self.assertIn("a|b\\_c & 1.2 & yes \\\\", table.latex())
+
+    def test_statistics(self):
+        self.assertEqual(spread([1.0, 3.0]), "2 ± 1")
+        self.assertIsNone(spread([]))
+        self.assertAlmostEqual(percent_off(110, 100), 10)
+        self.assertAlmostEqual(growth_exponent([1, 2, 4], [3, 12, 48]), 2)
+
+
+class WholeRuns(Scratch):
+    def test_killed_and_started_again_nothing_is_lost_or_repeated(self):
+        child = subprocess.Popen(self.command("solids"), stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, start_new_session=True)
+        while child.poll() is None and len(self.results() if (self.folder / "runs").exists() else ()) < 3:
+            time.sleep(0.01)
+        if child.poll() is None:
+            os.killpg(child.pid, signal.SIGKILL)
+        child.wait()
+        before = self.results()
+        done = self.run_experiments("solids")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        after = self.results()
+        self.assertEqual({k: after[k] for k in before}, before)
+        self.assertEqual(len(after), 9)
+        self.run_experiments("solids")
+        self.assertEqual(self.results(), after)
+        self.compare_with_docs(self.table("solids"))
+        victim = self.folder / "runs" / min(after)
+        victim.write_text(victim.read_text().replace("1", "2", 1))
+        self.assertEqual(self.run_experiments("--check").returncode, 1)
+        self.assertIn("set aside", self.run_experiments("solids").stderr)
+        self.assertEqual(self.run_experiments("--check").returncode, 0)
+
+    def compare_with_docs(self, rows):
+        """README's table "solids": layers and verdicts as they are, material within 1 %."""
+        page = (ROOT / "experiments/README.md").read_text().split("<!-- solids -->")[1].split("<!-- /solids -->")[0]
+        lines = [[c.strip() for c in line.strip("|\n ").split(" | ")] for line in page.strip().splitlines()]
+        documented = {line[0]: dict(zip(lines[0], line)) for line in lines[2:]}
+        self.assertEqual(len(documented), len(rows))
+        for row in rows:
+            said = documented[row["solid"]]
+            self.assertEqual(said["layers"], row["layers"], row["solid"])
+            self.assertEqual(said["proved"], "yes" if row["proved"] == "True" else "NO", row["solid"])
+            for column in ("material mm³", "supports mm³"):
+                self.assertAlmostEqual(float(said[column]), float(row[column]), delta=0.01 * float(row["material mm³"]), msg=row["solid"])
+
+    def test_what_is_missing_is_a_row_that_says_so(self):
+        done = self.run_experiments("table5", "--plan")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        plan = json.loads((self.folder / "plan.json").read_text())
+        self.assertTrue(all(" " in name for name in plan.values()))
+        for file in (ROOT / "experiments/paper").iterdir():
+            self.assertTrue(file.read_text().startswith("# source: Tricard"), file)
+        lab = Laboratory(self.folder)
+        rows = list(lab.paper_models("table2_reduction"))
+        self.assertEqual(sum(1 for _, model, _ in rows if model is None), 7)
+        self.assertEqual([m.name for _, m, real in rows if real], ["cube"])
+
+
+if __name__ == "__main__":
+    unittest.main()
