@@ -88,7 +88,7 @@ nlohmann::ordered_json run(const std::string& model, const PlacementOptions& pla
         tally.threshold_missed += one.threshold_missed, tally.errors += one.errors;
         return std::shared_ptr<void>();
     };
-    sweep_layers(slicer, settings, 0, finish, [](const SweptLayer&, std::shared_ptr<void>) {}, [] { return false; });
+    sweep_layers(slicer, settings, {}, 0, finish, [](const SweptLayer&, std::shared_ptr<void>) {}, [] { return false; });
     return {{"layers", tally.layers}, {"refuted", tally.refuted}, {"false_alarms", tally.false_alarms}, {"missed", tally.missed},
             {"thresholds", tally.thresholds}, {"threshold_false_alarms", tally.threshold_false_alarms},
             {"threshold_missed", tally.threshold_missed}, {"errors", tally.errors}};

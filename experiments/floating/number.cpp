@@ -14,6 +14,7 @@ Vertex slice_vertex(const ExactKernel::Point_2& p) {
     v.x = v.cx, v.y = v.cy, v.slice = &p;
     return v;
 }
+Interval enclosure(const Rational& a) { return a.get_d(); }
 template <>
 Vec<Rational> exact_point<Rational>(const Vertex& v) {
     if (!v.slice) return {Rational(static_cast<long>(v.lattice.x)), Rational(static_cast<long>(v.lattice.y))};

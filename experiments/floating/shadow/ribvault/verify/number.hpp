@@ -41,20 +41,25 @@ private:
 };
 using Algebraic = CORE::Expr;
 
+/// Thrown by root() on rationals whose square root is none: the rational stage cannot answer.
 struct NotRational {};
 
+/// What sign_of() says when intervals leave the sign open.
 inline constexpr int unknown = 2;
-
-struct Vertex {
-    Interval x, y;
-    double cx = 0, cy = 0;
-    Point lattice;
-    const ExactKernel::Point_2* slice = nullptr;
-};
 
 template <class NT>
 struct Vec {
     NT x, y;
+};
+
+/// An exact point of the input in lattice units: a lattice point, a slice's vertex (mm) times units_per_mm, or any
+/// rational point.
+struct Vertex {
+    Interval x, y;          ///< certified enclosure
+    double cx = 0, cy = 0;  ///< within 2^-50 of its magnitude
+    Point lattice;          ///< the point itself when the pointers are null
+    const ExactKernel::Point_2* slice = nullptr;
+    const Vec<Rational>* rational = nullptr;
 };
 template <class NT>
 Vec<NT> operator-(const Vec<NT>& p, const Vec<NT>& q) {
@@ -70,8 +75,15 @@ NT cross(const Vec<NT>& p, const Vec<NT>& q) {
 }
 
 Vertex lattice_vertex(Point p);
+/// `p` must outlive the vertex. Call under upward rounding (CGAL::Protect_FPU_rounding).
 Vertex slice_vertex(const ExactKernel::Point_2& p);
+/// `p` must outlive the vertex.
+Vertex rational_vertex(const Vec<Rational>& p);
 
+/// Doubles next to each other, or equal ones, that enclose a number.
+Interval enclosure(const Rational& a);
+
+/// The vertex in the number type NT.
 template <class NT>
 Vec<NT> exact_point(const Vertex& v);
 template <>
@@ -83,8 +95,9 @@ Vec<Rational> exact_point<Rational>(const Vertex& v);
 template <>
 Vec<Algebraic> exact_point<Algebraic>(const Vertex& v);
 
+/// Square root of a number known to be >= 0.
 Interval root(const Interval& a);
-Rational root(const Rational& a);
+Rational root(const Rational& a);  ///< throws NotRational
 Algebraic root(const Algebraic& a);
 
 /// Always an answer, but for NaN (0 / 0), which falls back to exact numbers as a program with doubles could not.
@@ -94,9 +107,54 @@ inline int sign_of(const Algebraic& a) { return a.sign(); }
 
 Algebraic to_algebraic(const Rational& a);
 
+/// A double to the number type, exactly.
 template <class NT>
 NT number(double a) {
     return NT(a);
+}
+
+/// A radius that is no binary float. A problem holds one for each value, so that equal radii have equal addresses.
+struct ExactRadius {
+    Rational value;
+    Interval enclosure;  ///< of `value`
+};
+
+/// A length >= 0 in lattice units: a binary float, or a rational that is none. Never the same value in both ways.
+struct Radius {
+    double approx = 0;                   ///< within 2^-52 of its magnitude
+    const ExactRadius* exact = nullptr;  ///< null: `approx` itself
+    Radius(double value = 0) : approx(value) {}
+    /// Precondition: r.value is no binary float. `r` must outlive the radius.
+    explicit Radius(const ExactRadius& r) : approx(r.enclosure.inf()), exact(&r) {}
+    friend bool operator==(const Radius&, const Radius&) = default;
+};
+
+template <class NT>
+NT number(const Radius& r);
+template <>
+inline Interval number<Interval>(const Radius& r) {
+    return r.exact ? r.exact->enclosure : Interval(r.approx);
+}
+template <>
+inline Rational number<Rational>(const Radius& r) {
+    return r.exact ? r.exact->value : Rational(r.approx);
+}
+template <>
+inline Algebraic number<Algebraic>(const Radius& r) {
+    return r.exact ? to_algebraic(r.exact->value) : Algebraic(r.approx);
+}
+
+/// r - sign * s; no rounding where r = s.
+template <class NT>
+NT difference(const Radius& r, int sign, const Radius& s) {
+    if (r == s) return sign > 0 ? NT(0) : NT(NT(2) * number<NT>(r));
+    return sign > 0 ? NT(number<NT>(r) - number<NT>(s)) : NT(number<NT>(r) + number<NT>(s));
+}
+
+/// Whether r <= s, exactly.
+inline bool no_greater(const Radius& r, const Radius& s) {
+    if (!r.exact && !s.exact) return r.approx <= s.approx;
+    return r == s || number<Rational>(r) <= number<Rational>(s);
 }
 
 }  // namespace ribvault::verify
