@@ -117,10 +117,12 @@ TEST_CASE("random solids end proved under random settings") {
         if (round % 3 == 1) job.settings.support_radius = 12000, job.settings.erosion_step = job.settings.straighten_step = 12000;
         if (round % 3 == 2) job.settings.support_radius = 30000, job.settings.erosion_step = job.settings.straighten_step = 30000;
         if (round % 4 == 3) job.settings.sampling_pitch = 4000;
+        if (round % 5 == 4) job.settings.propagation = Propagation::shrink, job.settings.order = Order::doubling, job.settings.trim = true;
         const RunReport report = generate(job);
         INFO("round " << round);
         CHECK(report.verdict.proved);
         CHECK(report.verdict.layers_proved == static_cast<int>(report.layers.size()));
+        CHECK(report.verdict.print_proved);
     }
 }
 
