@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "ribvault/vault/segment_grid.hpp"
+#include "ribvault/vault/wall_contacts.hpp"
 
 namespace ribvault {
 namespace {
@@ -20,13 +21,6 @@ Vec operator*(double t, Vec a) { return {t * a.x, t * a.y}; }
 double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y; }
 double norm(Vec a) { return std::sqrt(dot(a, a)); }
 Point rounded(Vec a) { return {round_to_lattice(a.x), round_to_lattice(a.y)}; }
-
-/// Do two walls meet otherwise than at a shared end?
-bool collide(const Segment& s, const Segment& t) {
-    if (!segments_touch(s, t)) return false;
-    const bool shared = s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b;
-    return !shared || segments_cross(s, t);
-}
 
 class Shrinker {
 public:
@@ -346,7 +340,7 @@ private:
             if (w.alive) {
                 const std::size_t a = keep(w.a), b = keep(w.b);
                 add_edge(a, b, result.forest);
-                result.left_cavity = result.left_cavity || meets_shell(w);
+                result.left_cavity = result.left_cavity || meets_shell(segment(w), nodes_[w.a].root, nodes_[w.b].root, boundary_);
             }
         for (std::size_t v = 0; v < nodes_.size(); ++v)
             if (!nodes_[v].gone && nodes_[v].root && nodes_[v].walls.empty()) keep(v);
@@ -354,22 +348,6 @@ private:
         for (std::size_t w = 0; w < input_walls_; ++w) result.survives[w] = walls_[w].alive;
         for (const auto& [w, half] : cut_) result.survives[w] = walls_[w].alive || walls_[half].alive;
         return result;
-    }
-
-    /// Does the wall meet the shell anywhere but at its roots?
-    bool meets_shell(const Wall& w) const {
-        const Segment s = segment(w);
-        Box box;
-        box.add(s.a), box.add(s.b);
-        bool meets = false;
-        boundary_.edges.visit(box, [&](std::uint32_t k) {
-            const Segment& e = boundary_.edges.segments()[k];
-            if (meets || !segments_touch(s, e)) return;
-            const bool at_a = nodes_[w.a].root && compare_distance(s.a, e, 2 * root_tolerance) <= 0;
-            const bool at_b = nodes_[w.b].root && compare_distance(s.b, e, 2 * root_tolerance) <= 0;
-            meets = !at_a && !at_b;
-        });
-        return meets;
     }
 
     static constexpr std::size_t none = static_cast<std::size_t>(-1);

@@ -1,6 +1,7 @@
 #include "ribvault/vault/straighten_supports.hpp"
 
 #include "ribvault/vault/segment_grid.hpp"
+#include "ribvault/vault/wall_contacts.hpp"
 
 namespace ribvault {
 namespace {
@@ -9,13 +10,6 @@ struct Wall {
     std::size_t a, b;
     bool alive = true;
 };
-
-/// Do two walls meet otherwise than at a shared end?
-bool collide(const Segment& s, const Segment& t) {
-    if (!segments_touch(s, t)) return false;
-    const bool shared = s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b;
-    return !shared || segments_cross(s, t);
-}
 
 Point move_towards(Point from, double x, double y, Unit step) {
     const double dx = x - static_cast<double>(from.x), dy = y - static_cast<double>(from.y), d = std::hypot(dx, dy);
@@ -102,7 +96,7 @@ private:
             arrives = !collides(moved_.front());
         }
         if (!arrives) keep_clear();
-        for (const Segment& s : moved_) result_.left_cavity = result_.left_cavity || meets_shell(s, p0, pn);
+        for (const Segment& s : moved_) result_.left_cavity = result_.left_cavity || meets_shell(s, s.a == p0 && forest_[chain_.front()].root, s.b == pn && forest_[chain_.back()].root, boundary_);
         if (arrives) {
             add_wall(chain_.front(), chain_.back(), true);
             return;
@@ -140,21 +134,6 @@ private:
             }
         }
         std::erase_if(moved_, [](const Segment& s) { return s.a == s.b; });
-    }
-
-    /// Does a moved wall meet the shell anywhere but at a root at the chain's ends?
-    bool meets_shell(const Segment& s, Point p0, Point pn) const {
-        Box box;
-        box.add(s.a), box.add(s.b);
-        bool meets = false;
-        boundary_.edges.visit(box, [&](std::uint32_t k) {
-            const Segment& e = boundary_.edges.segments()[k];
-            if (meets || !segments_touch(s, e)) return;
-            const bool at_start = s.a == p0 && forest_[chain_.front()].root && compare_distance(p0, e, 2 * root_tolerance) <= 0;
-            const bool at_end = s.b == pn && forest_[chain_.back()].root && compare_distance(pn, e, 2 * root_tolerance) <= 0;
-            meets = !at_start && !at_end;
-        });
-        return meets;
     }
 
     StraightenedSupports finish() {
