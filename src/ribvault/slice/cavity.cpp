@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 #include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
@@ -13,32 +14,43 @@ namespace {
 constexpr double rounding = 3;
 
 /// Is every point of the segment within radius of one of the tree's segments? A piece whose two ends are within the radius
-/// of the same segment is, because the set within a radius of a segment is convex. Exact when it says yes of a whole
-/// segment; pieces begin at rounded middles, at most 5 units beside the segment after eight halvings, which is a choice of
-/// the generator and no proof. Says no when halving eight times does not find such pieces.
-bool within_radius(const Segment& piece, const NearestSegment& tree, Unit radius, int depth = 0) {
-    const Point middle{(piece.a.x + piece.b.x) / 2, (piece.a.y + piece.b.y) / 2};
+/// of the same segment is, because the set within a radius of a segment is convex. Right when it says yes: pieces begin at
+/// lattice points of the segment where it has any (ties along the axes stay ties), else at rounded middles, less than a unit
+/// beside it, and the radius is a unit smaller for each. Says no when halving eight times does not find such pieces. With `side`
+/// (1: left, -1: right) only segments count whose nearest point lies on that side of the piece.
+bool within_radius(const Segment& piece, const NearestSegment& tree, Unit radius, int side = 0, int depth = 0) {
+    const Point way = piece.b - piece.a;
+    const Unit steps = std::gcd(way.x, way.y);
+    const Point middle = steps > 1 ? Point{piece.a.x + way.x / steps * (steps / 2), piece.a.y + way.y / steps * (steps / 2)}
+                                   : Point{(piece.a.x + piece.b.x) / 2, (piece.a.y + piece.b.y) / 2};
     for (Point p : {middle, piece.a, piece.b}) {
         const Segment& near = tree.segments()[tree.nearest(p).index];
+        if (side != 0 && orientation(piece.a, piece.b, nearest_point(middle, near)) != side) continue;
         if (compare_distance(piece.a, near, radius) <= 0 && compare_distance(piece.b, near, radius) <= 0) return true;
     }
-    if (depth == 8 || squared_length(piece.b - piece.a) < 4) return false;
-    return within_radius({piece.a, middle}, tree, radius, depth + 1) &&
-           within_radius({middle, piece.b}, tree, radius, depth + 1);
+    if (depth == 8 || squared_length(way) < 4) return false;
+    if (steps <= 1) radius -= 1;
+    return within_radius({piece.a, middle}, tree, radius, side, depth + 1) &&
+           within_radius({middle, piece.b}, tree, radius, side, depth + 1);
 }
 
 /// Is the sliver there only because `deep` is taken with the slack? Its edges must be within ρ of the shell, but those that
 /// follow an edge of C_{i+1} a rounding inside it (`inner` leaves that much of the empty cavity in the sliver): there the
-/// edge of C_{i+1} itself must be.
-bool is_tie(const Region& sliver, const NearestSegment& shell, const NearestSegment& edges_above, Unit radius) {
+/// edge of C_{i+1} itself must be. And where an edge is within ρ by less than the slack, what it is near to must lie on the
+/// sliver's side of it, so that the distance falls from there into the sliver; else it may have a ridge inside.
+bool is_tie(const Region& sliver, const NearestSegment& shell, const NearestSegment& edges_above, Unit radius, Unit slack) {
     if (edges_above.empty()) return false;
     constexpr Unit margin = static_cast<Unit>(2 * rounding);  // `inner` and its corners lie no farther from C_{i+1}'s edges
     for (const Segment& e : edges_of(sliver)) {
         Box box;
         box.add(e.a), box.add(e.b);
         box.grow(margin);
-        bool tie = within_radius(e, shell, radius) || within_radius(e, edges_above, margin);
-        edges_above.visit(box, [&](std::uint32_t k) { tie = tie && within_radius(edges_above.segments()[k], shell, radius); });
+        // The sliver lies to the left of its own edges and, being no part of C_{i+1}, to the right of that one's.
+        bool tie = within_radius(e, shell, radius - slack / 4) || within_radius(e, shell, radius, 1) || within_radius(e, edges_above, margin);
+        edges_above.visit(box, [&](std::uint32_t k) {
+            const Segment& edge = edges_above.segments()[k];
+            tie = tie && (within_radius(edge, shell, radius - slack / 2) || within_radius(edge, shell, radius, -1));
+        });
         if (!tie) return false;
     }
     return true;
@@ -96,7 +108,7 @@ Region overhang_over_cavity(const Cavity& cavity, const Slice& slice_above, cons
             shell = NearestSegment(edges_of(cavity.region));
             edge_above = NearestSegment(edges_of(above.region));
         }
-        if (!thin || !is_tie(piece, shell, edge_above, s.support_radius))
+        if (!thin || !is_tie(piece, shell, edge_above, s.support_radius, s.slack))
             std::move(piece.begin(), piece.end(), std::back_inserter(kept));
     }
     // Grown by what rounding may have taken away.
