@@ -139,7 +139,7 @@ private:
 
     /// Joins the two stops' exits, or their entries, by turning around what lies between.
     bool reverse_between(std::size_t s, std::size_t t) {
-        const auto [i, j] = std::minmax(position(s), position(t));
+        const auto [i, j] = std::minmax({position(s), position(t)});  // a list: values, not references to what is gone
         return reverse(i + 1, j) || reverse(i, j - 1);
     }
 
