@@ -123,5 +123,5 @@ TEST_CASE("the estimate agrees with PrusaSlicer's own within 10 % on its G-code"
         ++compared;
     }
     fs::remove_all(folder);
-    CHECK(compared >= 5);
+    CHECK(compared + 1 >= static_cast<int>(cases.size()));  // some versions refuse one of them
 }
