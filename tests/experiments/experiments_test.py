@@ -17,6 +17,7 @@ PROGRAMS = tempfile.TemporaryDirectory()  # ribvault alone: the slow comparisons
 os.symlink(os.path.realpath(os.environ["RIBVAULT"]), pathlib.Path(PROGRAMS.name) / "ribvault")
 os.environ["RIBVAULT_BIN"] = PROGRAMS.name
 
+from lab import race  # noqa: E402
 from lab.laboratory import Laboratory  # noqa: E402
 from lab.store import Damaged, Store  # noqa: E402
 from lab.tables import Table, growth_exponent, percent_off, spread  # noqa: E402
@@ -88,6 +89,33 @@ class Tables(unittest.TestCase):
         self.assertIsNone(spread([]))
         self.assertAlmostEqual(percent_off(110, 100), 10)
         self.assertAlmostEqual(growth_exponent([1, 2, 4], [3, 12, 48]), 2)
+
+
+class Races(unittest.TestCase):
+    def test_medians_and_ratios_are_of_the_rounds(self):
+        costs = [{m: k * x for m in race.MEASURES} for k, x in ((1, 4.0), (1, 1.0), (1, 2.5))]
+        ours, theirs = race.summary([{**c, "proved": True} for c in costs]), race.summary([{m: 2 * v for m, v in c.items()} for c in costs])
+        self.assertEqual(ours["seconds"], {"median": 2.5, "least": 1.0, "greatest": 4.0})
+        self.assertTrue(ours["proved"])
+        self.assertFalse(race.summary([{**c, "proved": i != 1} for i, c in enumerate(costs)])["proved"])
+        self.assertEqual(set(race.ratios(ours, theirs).values()), {0.5})
+
+    def test_programs_take_turns_and_are_measured(self):
+        cube, turns = ROOT / "experiments/models/cube20.stl", []
+        entries = [race.Entry("cube", "own", cube, ("--threads", t)) for t in (1, 2)]
+        results = race.race(entries, 2, turns.append)
+        self.assertEqual(turns, entries * 2)
+        for entry in entries:
+            costs = race.summary(results[entry])
+            self.assertTrue(costs["proved"])
+            self.assertEqual(len(costs["rounds"]), 2)
+            self.assertLess(0, costs["cpu_seconds"]["least"])
+            self.assertLess(costs["seconds"]["least"], costs["seconds"]["greatest"])
+            self.assertTrue(5 < costs["peak_memory_mb"]["median"] < 200, costs)
+
+    def test_a_program_that_fails_ends_the_race_with_its_words(self):
+        with self.assertRaisesRegex(SystemExit, "no-such-file"):
+            race.race([race.Entry("none", "own", ROOT / "no-such-file.stl")], 1)
 
 
 class WholeRuns(Scratch):
