@@ -8,5 +8,6 @@ namespace ribvault::cli {
 
 std::function<int()> add_generate(CLI::App& app);
 std::function<int()> add_verify(CLI::App& app);
+std::function<int()> add_page(CLI::App& app);
 
 }  // namespace ribvault::cli

@@ -14,7 +14,7 @@ namespace {
 /// What the user wrote, before defaults that depend on other settings are known.
 struct Written {
     Job job;
-    std::string model, gcode, report, svg, mesh;
+    std::string model, gcode, report, svg, mesh, layers, html;
     std::optional<Unit> first_layer_height, support_radius, erosion_step, straighten_step, branch_bonus, pitch;
     std::optional<Rational> overlap;
     bool no_straighten = false, no_branch_bonus = false, quiet = false;
@@ -131,6 +131,7 @@ void complete(Written& w) {
     w.job.model = w.model;
     const auto path = [](const std::string& text) { return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text); };
     w.job.gcode = path(w.gcode), w.job.report = path(w.report), w.job.svg = path(w.svg), w.job.mesh = path(w.mesh);
+    w.job.layers = path(w.layers), w.job.html = path(w.html);
 }
 
 int run(Written& w) {
@@ -157,6 +158,8 @@ std::function<int()> add_generate(CLI::App& app) {
     command->add_option("--report", written->report, "JSON report to write")->type_name("FILE");
     command->add_option("--svg", written->svg, "folder for one picture a layer")->type_name("DIR");
     command->add_option("--mesh", written->mesh, "supports as solids, .stl or .3mf")->type_name("FILE");
+    command->add_option("--layers", written->layers, "the geometry of every layer, as JSON lines")->type_name("FILE");
+    command->add_option("--html", written->html, "page to look at the whole run, in one file")->type_name("FILE");
     command->add_option("--threads", written->job.threads, "0: all processors")->check(CLI::Range(0, 1024));
     command->add_flag("--quiet", written->quiet, "print errors only");
     add_profiles(command, written->job, written->first_layer_height);

@@ -13,9 +13,10 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", std::string("ribvault ") + RIBVAULT_VERSION);
     app.require_subcommand(1);
     std::map<const CLI::App*, std::function<int()>> run;
-    const auto generate = cli::add_generate(app), verify = cli::add_verify(app);
+    const auto generate = cli::add_generate(app), verify = cli::add_verify(app), page = cli::add_page(app);
     run[app.get_subcommand("generate")] = generate;
     run[app.get_subcommand("verify")] = verify;
+    run[app.get_subcommand("page")] = page;
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& e) {

@@ -7,82 +7,14 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "report/scratch_folder.hpp"
+#include "report/json_schema.hpp"
 
 using namespace ribvault;
 using Json = nlohmann::json;
 
 namespace {
 
-std::string page(const std::string& name) {
-    return test::contents((std::filesystem::path(RIBVAULT_CORPUS) / "../../docs" / name).lexically_normal());
-}
-
-Json read_schema() { return Json::parse(page("run-report.schema.json")); }
-
-bool has_type(const Json& value, const std::string& type) {
-    if (type == "object") return value.is_object();
-    if (type == "array") return value.is_array();
-    if (type == "string") return value.is_string();
-    if (type == "boolean") return value.is_boolean();
-    if (type == "integer") return value.is_number_integer();
-    if (type == "number") return value.is_number();
-    return type == "null" && value.is_null();
-}
-
-/// Every way in which `value` does not follow `schema`; the keywords are those that the schema file uses.
-void violations(const Json& schema, const Json& value, const Json& root, const std::string& at,
-                std::vector<std::string>& found) {
-    if (schema.contains("$ref"))
-        return violations(root.at(Json::json_pointer(schema["$ref"].get<std::string>().substr(1))), value, root, at,
-                          found);
-    if (schema.contains("anyOf")) {
-        for (const Json& option : schema["anyOf"]) {
-            std::vector<std::string> here;
-            violations(option, value, root, at, here);
-            if (here.empty()) return;
-        }
-        found.push_back(at + ": no alternative fits");
-        return;
-    }
-    if (schema.contains("const") && value != schema["const"]) found.push_back(at + ": not the constant");
-    if (schema.contains("enum") && std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
-        found.push_back(at + ": " + value.dump() + " is none of the values");
-    if (schema.contains("type")) {
-        const Json& type = schema["type"];
-        bool fits = type.is_string() && has_type(value, type.get<std::string>());
-        if (type.is_array())
-            for (const Json& t : type) fits = fits || has_type(value, t.get<std::string>());
-        if (!fits) found.push_back(at + ": is " + value.dump() + ", not of type " + type.dump());
-    }
-    if (schema.contains("minimum") && value.is_number() && value < schema["minimum"])
-        found.push_back(at + ": too small");
-    if (value.is_array() && schema.contains("minItems") && value.size() < schema["minItems"])
-        found.push_back(at + ": too short");
-    if (value.is_array() && schema.contains("maxItems") && value.size() > schema["maxItems"])
-        found.push_back(at + ": too long");
-    if (value.is_array() && schema.contains("items"))
-        for (std::size_t i = 0; i < value.size(); ++i)
-            violations(schema["items"], value[i], root, at + "/" + std::to_string(i), found);
-    if (!value.is_object()) return;
-    for (const Json& name : schema.value("required", Json::array()))
-        if (!value.contains(name)) found.push_back(at + ": no " + name.dump());
-    for (const auto& [name, member] : value.items()) {
-        if (schema.contains("properties") && schema["properties"].contains(name))
-            violations(schema["properties"][name], member, root, at + "/" + name, found);
-        else if (schema.value("additionalProperties", Json(true)).is_object())
-            violations(schema["additionalProperties"], member, root, at + "/" + name, found);
-        else
-            found.push_back(at + ": unknown member " + name);
-    }
-}
-
-std::vector<std::string> violations(const Json& report) {
-    const Json schema = read_schema();
-    std::vector<std::string> found;
-    violations(schema, report, schema, "", found);
-    return found;
-}
+std::vector<std::string> violations(const Json& report) { return test::violations(report, "run-report.schema.json"); }
 
 LayerReport layer(int number, bool supported) {
     LayerReport l;
@@ -168,7 +100,7 @@ TEST_CASE("the check against the schema finds what does not follow it") {
 }
 
 TEST_CASE("every field of the schema is described in docs/report-schema.md") {
-    const std::string description = page("report-schema.md");
+    const std::string description = test::page("report-schema.md");
     int fields = 0;
     const std::function<void(const Json&)> walk = [&](const Json& schema) {
         if (!schema.is_structured()) return;
@@ -180,7 +112,7 @@ TEST_CASE("every field of the schema is described in docs/report-schema.md") {
             }
         for (const Json& part : schema) walk(part);
     };
-    walk(read_schema());
+    walk(test::read_schema("run-report.schema.json"));
     CHECK(fields > 80);
 }
 

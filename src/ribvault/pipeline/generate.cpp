@@ -13,12 +13,14 @@
 #include "ribvault/output_file.hpp"
 #include "ribvault/pipeline/check_bed.hpp"
 #include "ribvault/pipeline/layer_spool.hpp"
+#include "ribvault/pipeline/shape_outputs.hpp"
 #include "ribvault/pipeline/sweep_layers.hpp"
 #include "ribvault/print/gcode_header.hpp"
 #include "ribvault/print/order_paths.hpp"
 #include "ribvault/print/skirt.hpp"
 #include "ribvault/print/thumbnail.hpp"
 #include "ribvault/print/write_gcode.hpp"
+#include "ribvault/report/layer_shapes.hpp"
 #include "ribvault/report/layer_svg.hpp"
 #include "ribvault/report/write_mesh.hpp"
 #include "ribvault/verify/verify_layer.hpp"
@@ -39,6 +41,7 @@ struct LayerOutput {
     PrintVerdict print_above;  ///< of the layer above over this one
     std::string walls;
     std::optional<AtomicFile> picture;
+    std::string shapes, packed;  ///< for the layers file; for the run page
 };
 
 class Run {
@@ -101,6 +104,7 @@ private:
             spool_.emplace();
         }
         if (job_.report) json_.emplace(*job_.report);
+        shapes_.open(job_.layers, job_.html);
         if (job_.mesh) {
             walls_.emplace(*job_.mesh);
             as_3mf_ = job_.mesh->extension() == ".3mf";
@@ -176,6 +180,11 @@ private:
             const Unit top = top_of_layer(layer.layer, s);
             append_walls(swept.forest, top - (layer.layer == 0 ? s.first_layer_height : s.layer_height), top, s, output->walls);
         }
+        if (job_.layers || job_.html) {
+            const LayerShapes shapes = shapes_of(*layer.slice, layer.cavity->region, swept.forest, swept.unsupported, swept.held.patch_tracks);
+            if (job_.layers) output->shapes = shapes_json(shapes);
+            if (job_.html) output->packed = packed_shapes(shapes);
+        }
         pictures_ += (Time::now() - from).count();
         return output;
     }
@@ -215,6 +224,7 @@ private:
         r.retractions = p.retractions, r.detours = p.detours;
         r.prime_surplus_mm3 = p.prime_surplus * std::numbers::pi / 4 * job_.printer.filament_diameter * job_.printer.filament_diameter;
         r.print_seconds = p.seconds;
+        shapes_.add(r, output.shapes, output.packed);
         report_.layers.push_back(std::move(output.report));
         waiting_.reset();
         paths_ += (Time::now() - from).count();
@@ -255,6 +265,7 @@ private:
                 walls_->overwrite(0, stl_header(facets_));
             walls_->finish();
         }
+        shapes_.write(report_);
         times_["write"] = seconds_since(from);
         report_.machine.threads = job_.threads > 0 ? job_.threads : static_cast<int>(std::thread::hardware_concurrency());
         report_.machine.stage_seconds = times_;
@@ -268,6 +279,7 @@ private:
         if (gcode_) gcode_->commit();
         if (walls_) walls_->commit();
         for (AtomicFile& svg : svgs_) svg.commit();
+        shapes_.commit();
         if (json_) json_->commit();
     }
 
@@ -280,6 +292,7 @@ private:
     Box box_;
     std::optional<AtomicFile> gcode_, json_, walls_;
     std::optional<LayerSpool> spool_;
+    ShapeOutputs shapes_;
     std::vector<AtomicFile> svgs_;
     bool as_3mf_ = false;
     std::uint32_t facets_ = 0;

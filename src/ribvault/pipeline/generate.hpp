@@ -14,7 +14,7 @@ namespace ribvault {
 
 struct Job {
     std::filesystem::path model;
-    std::optional<std::filesystem::path> gcode, report, svg, mesh;  ///< what to write; svg is a folder
+    std::optional<std::filesystem::path> gcode, report, svg, mesh, layers, html;  ///< what to write; svg is a folder
     PlacementOptions placement;
     Settings settings;
     TrackSettings tracks;

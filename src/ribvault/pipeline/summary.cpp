@@ -72,7 +72,8 @@ std::string summary(const RunReport& r, const Job& job) {
     if (r.totals.closings > 0) print(text, "warning   %ld gaps in open contours were closed; the report names them\n", r.totals.closings);
     print(text, "time      %.2f s on %d threads, %.0f MB\n", r.machine.seconds, r.machine.threads, r.machine.peak_memory_mb);
     const std::pair<const char*, const std::optional<std::filesystem::path>&> written[] = {
-        {"G-code", job.gcode}, {"report", job.report}, {"layers", job.svg}, {"walls", job.mesh}};
+        {"G-code", job.gcode}, {"report", job.report}, {"layers", job.svg}, {"walls", job.mesh},
+        {"shapes", job.layers}, {"page", job.html}};
     for (const auto& [name, path] : written)
         if (path) print(text, "%-9s %s\n", name, path->string().c_str());
     return text;

@@ -73,7 +73,7 @@ class Run {
 public:
     explicit Run(const VerifyJob& job) : job_(job), start_(Time::now()) {}
 
-    PrintReport execute() {
+    JudgedPrint execute() {
         check(job_);
         open_outputs();
         read();
@@ -84,7 +84,7 @@ public:
         report_.seconds = seconds_since(start_);
         report_.peak_memory_mb = peak_memory_mb();
         write_outputs();
-        return std::move(report_);
+        return {std::move(print_), std::move(report_)};
     }
 
 private:
@@ -210,7 +210,11 @@ private:
                 pictures.back().write(printed_layer_svg(print_, report_, k));
             }
         }
-        if (page_) page_->write(print_page(print_, report_));
+        if (page_) {
+            RunPage page([this](std::string_view text) { page_->write(text); });
+            append_print(page, print_, report_);
+            page.finish();
+        }
         if (json_) json_->write(to_json(report_));
         if (page_) page_->finish();
         if (json_) json_->finish();
@@ -231,6 +235,8 @@ private:
 
 }  // namespace
 
-PrintReport verify_print(const VerifyJob& job) { return Run(job).execute(); }
+PrintReport verify_print(const VerifyJob& job) { return Run(job).execute().report; }
+
+JudgedPrint judged_print(const VerifyJob& job) { return Run(job).execute(); }
 
 }  // namespace ribvault

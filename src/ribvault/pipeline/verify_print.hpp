@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ribvault/exact/rational.hpp"
+#include "ribvault/print/gcode_print.hpp"
 #include "ribvault/report/print_report.hpp"
 
 namespace ribvault {
@@ -37,6 +38,13 @@ struct VerifyJob {
 /// same. The result does not depend on the number of threads.
 /// Throws Error: unreadable (the file), usage (a setting or feature that cannot be), cannot_write, interrupted.
 PrintReport verify_print(const VerifyJob& job);
+
+struct JudgedPrint {
+    GcodePrint print;
+    PrintReport report;
+};
+/// The same, with the print itself.
+JudgedPrint judged_print(const VerifyJob& job);
 
 /// The report in a few lines for people: one a feature type, then the verdict.
 std::string summary(const PrintReport& report, const VerifyJob& job);

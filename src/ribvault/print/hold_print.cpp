@@ -81,6 +81,7 @@ public:
             lay_tracks();
             open = look(affected(open, before));
         }
+        held_.patch_tracks = std::move(patches_);
         return std::move(held_);
     }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "ribvault/print/layer_plan.hpp"
 #include "ribvault/settings.hpp"
@@ -20,6 +21,7 @@ struct HeldLayer {
     int closed_gaps = 0;        ///< branches printed up to their junction because the gap would have let something hang
     int patches = 0;            ///< short tracks added where closing gaps was not enough
     Unit patch_length = 0;      ///< lattice units
+    std::vector<Segment> patch_tracks;  ///< their centre lines; dots as segments of no length
 };
 
 /// Completes `shell`, the plan of layer i's perimeters and covers, with the tracks of S_i (`forest`) so that every point of

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "ribvault/report/run_report.hpp"
+#include "ribvault/report/report_members.hpp"
 
 namespace ribvault {
 namespace {
@@ -135,7 +135,7 @@ Json print_verdict(const PrintVerdict& v) {
             {"stages", stages(v.stages)}};
 }
 
-Json layer_json(const LayerReport& l) {
+Json layer_members(const LayerReport& l) {
     Json closings = Json::array();
     for (const GapClosing& c : l.closings) closings.push_back({{"x_mm", c.x}, {"y_mm", c.y}, {"length_mm", c.length}});
     return {{"layer", l.layer},
@@ -229,10 +229,12 @@ std::string text_of(const Json& value) { return value.dump(-1, ' ', false, Json:
 
 }  // namespace
 
-std::string to_json(const RunReport& report) {
-    std::string text = "{\n  \"schema\": \"ribvault-run/1\"";
-    const auto member = [&text](const char* name, const Json& value) {
-        text.append(",\n  \"").append(name).append("\": ").append(text_of(value));
+std::string layer_json(const LayerReport& layer) { return text_of(layer_members(layer)); }
+
+std::string run_members(const RunReport& report, std::string_view separator) {
+    std::string text;
+    const auto member = [&](const char* name, const Json& value) {
+        text.append(text.empty() ? "" : separator).append("\"").append(name).append("\": ").append(text_of(value));
     };
     member("program", {{"name", "ribvault"}, {"version", report.version}});
     member("input",
@@ -242,12 +244,15 @@ std::string to_json(const RunReport& report) {
     member("printer", printer(report.printer));
     member("verdict", summary(report.verdict));
     member("totals", totals(report.totals, report.layers.size()));
-    text += ",\n  \"layers\": [";
+    return text;
+}
+
+std::string to_json(const RunReport& report) {
+    std::string text = "{\n  \"schema\": \"ribvault-run/1\",\n  " + run_members(report, ",\n  ") + ",\n  \"layers\": [";
     for (std::size_t i = 0; i < report.layers.size(); ++i)
-        text.append(i == 0 ? "\n    " : ",\n    ").append(text_of(layer_json(report.layers[i])));
+        text.append(i == 0 ? "\n    " : ",\n    ").append(layer_json(report.layers[i]));
     text += report.layers.empty() ? "]" : "\n  ]";
-    member("machine", machine(report.machine));
-    text += "\n}\n";
+    text += ",\n  \"machine\": " + text_of(machine(report.machine)) + "\n}\n";
     return text;
 }
 

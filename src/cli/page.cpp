@@ -1,0 +1,49 @@
+#include <cstdio>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "ribvault/pipeline/make_page.hpp"
+
+namespace ribvault::cli {
+namespace {
+
+/// What the user wrote.
+struct Written {
+    std::vector<std::string> runs;
+    std::string page;
+    int threads = 0;
+    bool quiet = false;
+};
+
+int run(const Written& w) {
+    PageJob job;
+    job.runs.assign(w.runs.begin(), w.runs.end());
+    job.page = w.page;
+    job.threads = w.threads;
+    Progress progress(w.quiet, "");
+    job.progress = [&](int done, int total) { progress(done, total); };
+    job.stop = interrupted;
+    job.warn = [&](const std::string& text) {
+        if (!w.quiet) std::fprintf(stderr, "warning: %s\n", text.c_str());
+    };
+    make_page(job);
+    progress.clear();
+    if (!w.quiet) std::printf("page      %s\n", w.page.c_str());
+    return 0;
+}
+
+}  // namespace
+
+std::function<int()> add_page(CLI::App& app) {
+    const auto written = std::make_shared<Written>();
+    CLI::App* command = app.add_subcommand("page", "One HTML file to look at a run, or at two side by side");
+    command->add_option("run", written->runs, "layers files of `generate --layers`, or G-code of any slicer (judged as by `verify`)")->required()->expected(1, 2);
+    command->add_option("-o,--output", written->page, "page to write")->required()->type_name("FILE");
+    command->add_option("--threads", written->threads, "0: all processors")->check(CLI::Range(0, 1024));
+    command->add_flag("--quiet", written->quiet, "print errors only");
+    return [written] { return run(*written); };
+}
+
+}  // namespace ribvault::cli

@@ -1,0 +1,56 @@
+#include "ribvault/pipeline/make_page.hpp"
+
+#include <fstream>
+
+#include "ribvault/error.hpp"
+#include "ribvault/output_file.hpp"
+#include "ribvault/pipeline/verify_print.hpp"
+#include "ribvault/report/layers_file.hpp"
+#include "ribvault/report/print_page.hpp"
+#include "ribvault/report/run_page.hpp"
+
+namespace ribvault {
+namespace {
+
+/// A line of G-code begins with no brace; files that cannot be read at all are refused by read_gcode.
+bool is_json(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    char first = 0;
+    return in >> first && first == '{';
+}
+
+void append_layers(const PageJob& job, const std::filesystem::path& file, RunPage& page) {
+    LayersFile layers(file);
+    page.begin_run();
+    LayersFile::Layer layer;
+    while (layers.next(layer)) {
+        if (job.stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+        page.add_layer(page_record(layer.numbers, packed_shapes(layer.shapes)));
+    }
+    page.end_run(page_facts(layers.header()));
+}
+
+void append_gcode(const PageJob& job, const std::filesystem::path& file, RunPage& page) {
+    VerifyJob verify;
+    verify.gcode = file;
+    verify.threads = job.threads;
+    verify.progress = job.progress, verify.warn = job.warn, verify.stop = job.stop;
+    const JudgedPrint judged = judged_print(verify);
+    append_print(page, judged.print, judged.report);
+}
+
+}  // namespace
+
+void make_page(const PageJob& job) {
+    if (job.runs.empty() || job.runs.size() > 2)
+        throw Error(ErrorKind::usage, "a page shows one run or two, not " + std::to_string(job.runs.size()));
+    AtomicFile file(job.page);
+    RunPage page([&file](std::string_view text) { file.write(text); });
+    for (const std::filesystem::path& run : job.runs)
+        is_json(run) ? append_layers(job, run, page) : append_gcode(job, run, page);
+    page.finish();
+    if (job.stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+    file.commit();
+}
+
+}  // namespace ribvault

@@ -1,0 +1,127 @@
+#include "ribvault/report/layer_shapes.hpp"
+
+#include "ribvault/report/packed.hpp"
+
+namespace ribvault {
+namespace {
+
+constexpr Unit units_per_um = units_per_mm / 1000;
+
+Point to_micrometre(Point p) {
+    const auto rounded = [](Unit u) { return (u + (u < 0 ? -units_per_um : units_per_um) / 2) / units_per_um * units_per_um; };
+    return {rounded(p.x), rounded(p.y)};
+}
+
+Region to_micrometre(const Region& region) {
+    Region rounded = region;
+    for (Contour& contour : rounded)
+        for (Point& p : contour) p = to_micrometre(p);
+    return rounded;
+}
+
+/// A decimal of mm without needless zeros.
+void append_mm(std::string& text, Unit units) {
+    Unit um = units / units_per_um;
+    if (um < 0) text += '-', um = -um;
+    text += std::to_string(um / 1000);
+    int rest = static_cast<int>(um % 1000);
+    if (rest == 0) return;
+    text += '.';
+    for (int unit = 100; rest > 0; unit /= 10) {
+        text += static_cast<char>('0' + rest / unit);
+        rest %= unit;
+    }
+}
+
+void append_point(std::string& text, Point p) {
+    text += '[';
+    append_mm(text, p.x);
+    text += ',';
+    append_mm(text, p.y);
+    text += ']';
+}
+
+template <class List, class Append>
+void append_list(std::string& text, const List& list, Append append) {
+    text += '[';
+    bool first = true;
+    for (const auto& entry : list) {
+        if (!first) text += ',';
+        first = false;
+        append(text, entry);
+    }
+    text += ']';
+}
+
+void append_region(std::string& text, const Region& region) {
+    append_list(text, region, [](std::string& t, const Contour& contour) { append_list(t, contour, append_point); });
+}
+
+std::vector<std::uint32_t> roots(const LayerShapes& shapes) {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t v = 0; v < shapes.vertices.size(); ++v)
+        if (shapes.vertices[v].root) found.push_back(v);
+    return found;
+}
+
+}  // namespace
+
+LayerShapes shapes_of(const Slice& slice, const Region& cavity, const SupportForest& forest, const Region& unsupported,
+                      const std::vector<Segment>& patches) {
+    LayerShapes shapes{to_micrometre(slice.rounded), to_micrometre(cavity), {}, {}, to_micrometre(unsupported), patches};
+    for (Segment& s : shapes.patches) s = {to_micrometre(s.a), to_micrometre(s.b)};
+    for (auto [v, end] = vertices(forest); v != end; ++v) shapes.vertices.push_back({to_micrometre(forest[*v].at), forest[*v].root});
+    for (auto [e, end] = edges(forest); e != end; ++e)
+        shapes.edges.push_back({static_cast<std::uint32_t>(source(*e, forest)), static_cast<std::uint32_t>(target(*e, forest))});
+    return shapes;
+}
+
+std::string shapes_json(const LayerShapes& shapes) {
+    std::string text = "\"slice\":";
+    append_region(text, shapes.slice);
+    text += ",\"cavity\":";
+    append_region(text, shapes.cavity);
+    text += ",\"vertices\":";
+    append_list(text, shapes.vertices, [](std::string& t, const SupportVertex& v) { append_point(t, v.at); });
+    text += ",\"roots\":";
+    append_list(text, roots(shapes), [](std::string& t, std::uint32_t v) { t += std::to_string(v); });
+    text += ",\"edges\":";
+    append_list(text, shapes.edges, [](std::string& t, const std::array<std::uint32_t, 2>& e) {
+        t += '[' + std::to_string(e[0]) + ',' + std::to_string(e[1]) + ']';
+    });
+    text += ",\"unsupported\":";
+    append_region(text, shapes.unsupported);
+    text += ",\"patch_tracks\":";
+    append_list(text, shapes.patches, [](std::string& t, const Segment& s) {
+        t += '[';
+        append_point(t, s.a);
+        t += ',';
+        append_point(t, s.b);
+        t += ']';
+    });
+    return text;
+}
+
+std::string packed_shapes(const LayerShapes& shapes) {
+    Packed out;
+    out.region(shapes.slice);
+    out.region(shapes.cavity);
+    out.natural(shapes.vertices.size());
+    for (const SupportVertex& v : shapes.vertices) out.point(v.at);
+    const std::vector<std::uint32_t> root = roots(shapes);
+    out.natural(root.size());
+    std::int64_t before = 0;
+    for (const std::int64_t v : root) out.whole(v - before), before = v;
+    out.natural(shapes.edges.size());
+    before = 0;
+    for (const auto& [a, b] : shapes.edges) {
+        out.whole(a - before), out.whole(static_cast<std::int64_t>(b) - a);
+        before = a;
+    }
+    out.region(shapes.unsupported);
+    out.natural(shapes.patches.size());
+    for (const Segment& s : shapes.patches) out.point(s.a), out.point(s.b);
+    return out.bytes();
+}
+
+}  // namespace ribvault

@@ -1,0 +1,34 @@
+// What one layer looks like: the geometry that layers files and run pages carry.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ribvault/slice/slice.hpp"
+#include "ribvault/vault/support_forest.hpp"
+
+namespace ribvault {
+
+/// Layer i in lattice units, every coordinate a whole number of micrometres: for pictures and measurements, not for proofs.
+struct LayerShapes {
+    Region slice;                        ///< O_i
+    Region cavity;                       ///< C_i; the shell B_i is slice without cavity
+    std::vector<SupportVertex> vertices; ///< of S_i
+    std::vector<std::array<std::uint32_t, 2>> edges;  ///< of S_i: indices into vertices
+    Region unsupported;                  ///< what of layer i + 1 had no support before S_i grew: newly supported here
+    std::vector<Segment> patches;        ///< short tracks that hold what the shell's own tracks leave open
+};
+
+/// Rounds to 1 µm.
+LayerShapes shapes_of(const Slice& slice, const Region& cavity, const SupportForest& forest, const Region& unsupported,
+                      const std::vector<Segment>& patches);
+
+/// The members "slice" to "patch_tracks" of a layers file's line (docs/layers-file.md), without braces; mm.
+std::string shapes_json(const LayerShapes& shapes);
+
+/// The same as bytes for the run page (report/packed.hpp), rounded to 0.01 mm.
+std::string packed_shapes(const LayerShapes& shapes);
+
+}  // namespace ribvault

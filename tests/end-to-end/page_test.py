@@ -1,0 +1,315 @@
+"""The run page in a browser: what it shows is what the report says. PROGRAM from RIBVAULT; screenshots go to the folder SCREENSHOTS."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import browser
+
+PROGRAM = os.environ["RIBVAULT"]
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+CUBE = ROOT / "experiments/models/cube20.stl"
+CORPUS = ROOT / "tests/corpus/gcode"
+SCREENSHOTS = pathlib.Path(os.environ.get("SCREENSHOTS", "screenshots"))
+FOUND = browser.find()
+
+# Of every visible element with text of its own: the text, and the contrast of its colour with what it stands on (WCAG 2.2).
+CONTRASTS = """(() => {
+  const parts = c => { const m = c.match(/[\\d.]+/g).map(Number); return { rgb: m.slice(0, 3), alpha: m.length > 3 ? m[3] : 1 }; };
+  const light = rgb => { const [r, g, b] = rgb.map(v => { v /= 255; return v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4; }); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+  const out = [];
+  for (const e of document.querySelectorAll("body *")) {
+    if (["SCRIPT", "STYLE", "OPTION", "NOSCRIPT"].includes(e.tagName) || !e.checkVisibility() || e.disabled) continue;
+    if (![...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim())) continue;
+    let under = e, back;
+    do { back = parts(getComputedStyle(under).backgroundColor); under = under.parentElement; } while (back.alpha < 1 && under);
+    const [a, b] = [light(parts(getComputedStyle(e).color).rgb), light(back.rgb)].sort((p, q) => q - p);
+    out.push([e.textContent.trim().slice(0, 40), (a + 0.05) / (b + 0.05)]);
+  }
+  return out;
+})()"""
+
+# Colours in the picture of a canvas that are not its corner's: how many points of a grid have one.
+DRAWN = """(canvas => { page.models.forEach(m => m.render());
+  const c = document.createElement("canvas"); c.width = c.height = 100; const g = c.getContext("2d"); g.drawImage(canvas, 0, 0, 100, 100);
+  const d = g.getImageData(0, 0, 100, 100).data; let n = 0;
+  for (let k = 4; k < d.length; k += 4) n += d[k] !== d[0] || d[k + 1] !== d[1] || d[k + 2] !== d[2];
+  return n; })"""
+
+
+def generate(folder, *arguments):
+    done = subprocess.run([PROGRAM, "generate", *map(str, arguments), "--quiet"], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def make_page(folder, *arguments):
+    return subprocess.run([PROGRAM, "page", *map(str, arguments)], cwd=folder, capture_output=True, text=True)
+
+
+class Pages(unittest.TestCase):
+    """One folder with runs of the cube, and one browser, for all tests."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.scratch.name)
+        generate(cls.folder, CUBE, "--layers", "a.layers", "--html", "a.html", "--report", "a.json", "-o", "a.gcode")
+        generate(cls.folder, CUBE, "--no-straighten", "--layers", "b.layers", "--report", "b.json")
+        cls.report = json.loads((cls.folder / "a.json").read_text())
+        cls.shapes = [json.loads(line) for line in (cls.folder / "a.layers").read_text().splitlines()[1:]]
+        SCREENSHOTS.mkdir(parents=True, exist_ok=True)
+        cls.browser = browser.Browser(FOUND)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.scratch.cleanup()
+
+    def setUp(self):
+        self.browser.resize(1280, 900)
+        self.browser.dark(False)
+
+    def open(self, name, fragment=""):
+        self.browser.open(self.folder / name, fragment)
+        # Software rendering warns of its own slowness.
+        errors = [text for text in self.browser.console if "GL Driver Message" not in text]
+        self.assertEqual(errors, [])
+        self.assertEqual(len(self.browser.requests), 1, self.browser.requests)
+
+    def at_end(self):
+        self.assertEqual([text for text in self.browser.console if "GL Driver Message" not in text], [])
+
+    def text(self, selector):
+        return self.browser.run(f"document.querySelector({json.dumps(selector)}).textContent")
+
+    def figures(self, table, run=0):
+        return self.browser.run(f"Object.fromEntries([...document.querySelectorAll('#{table} [data-run=\"{run}\"]')].map(e => [e.dataset.figure, e.textContent]))")
+
+    def slide(self, layer):
+        """Moves the slider as a hand does."""
+        self.browser.run(f"(() => {{ const s = document.getElementById('slider'); s.value = {layer}; s.dispatchEvent(new Event('input', {{ bubbles: true }})); }})()")
+
+    def shown(self):
+        return self.browser.run("[+document.getElementById('slider').value, +document.getElementById('number').value]")
+
+    def check_layer(self, k, report, shapes, run=0):
+        layer, figures = report["layers"][k], self.figures("layer-figures", run)
+        for name, digits in {"support_length_mm": 3, "support_printed_length_mm": 3, "support_volume_mm3": 3, "shell_volume_mm3": 3, "trees": 0, "gaps": 0,
+                             "closed_gaps": 0, "patches": 0, "filament_mm": 3, "print_seconds": 1}.items():
+            self.assertAlmostEqual(float(figures[name]), layer[name], delta=0.5000001 * 10 ** -digits, msg=f"{name} of layer {k}")
+        valence = [0] * len(shapes[k]["vertices"])
+        for edge in shapes[k]["edges"]:
+            for vertex in edge:
+                valence[vertex] += 1
+        root = set(shapes[k]["roots"])
+        self.assertEqual(int(figures["roots"]), sum(v in root and n > 0 for v, n in enumerate(valence)))
+        self.assertEqual(int(figures["junctions"]), sum(n >= 3 for n in valence))
+        self.assertEqual(int(figures["tips"]), sum(v not in root and n == 1 for v, n in enumerate(valence)))
+
+    def test_the_numbers_are_the_reports(self):
+        self.open("a.html")
+        for k in (0, 1, 50, 90, 97, 98, 99):
+            self.slide(k)
+            self.check_layer(k, self.report, self.shapes)
+            self.assertEqual(self.shown(), [k, k])
+            layer = self.report["layers"][k]
+            verdict = "on the bed" if k == 0 else "proved" if layer["verdict"]["supported"] and layer["print"]["supported"] else "not proved"
+            self.assertTrue(self.text("#caption").startswith(f"Layer {k}, z "), self.text("#caption"))
+            self.assertTrue(self.text("#caption").endswith(": " + verdict), self.text("#caption"))
+            self.assertIn(f"{layer['trees']} support tree" if layer["trees"] else "No supports", self.text("#said"))
+        totals, shown = self.report["totals"], self.figures("run-figures")
+        for name, digits in {"layers": 0, "material_mm3": 1, "shell_volume_mm3": 1, "support_volume_mm3": 1, "support_printed_length_mm": 0}.items():
+            self.assertAlmostEqual(float(shown[name]), totals[name], delta=0.5000001 * 10 ** -digits, msg=name)
+        self.assertIn("Proved: every point of all 100 layers", self.text("header"))
+        self.at_end()
+
+    def test_an_unproved_layer_is_named(self):
+        lines = (self.folder / "a.layers").read_text().splitlines()
+        layer = json.loads(lines[61])
+        layer["verdict"]["supported"] = False
+        layer["verdict"]["internal"] = {"area_mm2": [0.25, 0.5], "witness_mm": [125, 125], "witness_certified": True, "witness_distance_mm": 0.3}
+        header = json.loads(lines[0])
+        header["verdict"]["proved"], header["verdict"]["layers_refuted"] = False, [60]
+        (self.folder / "bad.layers").write_text("\n".join([json.dumps(header), *lines[1:61], json.dumps(layer), *lines[62:]]) + "\n")
+        self.assertEqual(make_page(self.folder, "bad.layers", "-o", "bad.html").returncode, 0)
+        self.open("bad.html", "#layer=10")
+        self.assertIn("Not proved on 1 of 100 layers", self.text("header"))
+        self.browser.key("n")
+        self.assertEqual(self.shown(), [60, 60])
+        self.assertIn("not proved", self.text("#caption"))
+        self.assertIn("0.25 to 0.50 mm²", self.text("#places"))
+        self.browser.run("document.querySelector('#places button').click()")
+        self.browser.screenshot(SCREENSHOTS / "unproved.png")
+        self.at_end()
+
+    def test_pictures_are_drawn(self):
+        self.open("a.html", "#layer=97")
+        self.browser.settle()
+        for name, least in {"model": 500, "drawing": 500}.items():
+            self.assertGreater(self.browser.run(f"{DRAWN}(document.querySelector('canvas.{name}'))"), least, name)
+        for canvas in ("#charts figure:nth-child(1) canvas", "#charts figure:nth-child(2) canvas"):
+            self.assertGreater(self.browser.run(f"{DRAWN}(document.querySelector('{canvas}'))"), 100, canvas)
+        whole = self.browser.run(f"(() => {{ const m = page.models[0]; m.cut = 'whole'; m.show(); return {DRAWN}(m.canvas); }})()")
+        hidden = self.browser.run(f"(() => {{ const m = page.models[0]; m.cut = 'hidden'; m.show(); return {DRAWN}(m.canvas); }})()")
+        self.assertGreater(whole, hidden)
+        self.at_end()
+
+    def test_keys_links_and_play(self):
+        self.open("a.html", "#layer=57")
+        self.assertEqual(self.shown(), [57, 57])
+        for key, layer in {"ArrowRight": 58, "ArrowUp": 59, "ArrowLeft": 58, "ArrowDown": 57, "PageUp": 67, "PageDown": 57, "Home": 0, "End": 99}.items():
+            self.browser.key(key)
+            self.assertEqual(self.shown(), [layer, layer], key)
+        self.browser.run("new Promise(done => setTimeout(done, 250))")
+        self.assertEqual(self.browser.run("location.hash"), "#layer=99")
+        self.browser.run("location.hash = '#layer=12'; new Promise(done => setTimeout(done, 50))")
+        self.assertEqual(self.shown(), [12, 12])
+        self.browser.run("document.querySelector('#links a').click(); new Promise(done => setTimeout(done, 50))")
+        most = max(self.report["layers"], key=lambda layer: layer["support_length_mm"])["layer"]
+        self.assertEqual(self.shown(), [most, most])
+        self.slide(25)
+        self.browser.run("document.activeElement.blur()")
+        self.browser.key(" ", " ")
+        self.browser.run("new Promise(done => { const wait = () => document.getElementById('slider').value === '0' ? done() : setTimeout(wait, 50); wait(); })")
+        self.assertEqual(self.text("#play span"), "Play down")
+        self.check_layer(0, self.report, self.shapes)
+        self.assertEqual(self.browser.run("document.querySelectorAll('select')[1].value"), "peel")
+        self.at_end()
+
+    def test_light_dark_and_phone(self):
+        for name in ("a.html", "two.html"):
+            if name == "two.html":
+                self.assertEqual(make_page(self.folder, "a.layers", "a.gcode", "-o", "two.html").returncode, 0)
+            self.open(name, "#layer=96")
+            for width, height, mobile in ((1280, 900, False), (390, 844, True)):
+                self.browser.resize(width, height, mobile)
+                self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), width)
+                for dark in (False, True):
+                    self.browser.dark(dark)
+                    self.browser.screenshot(SCREENSHOTS / f"{name[:-5]}_{width}_{'dark' if dark else 'light'}.png")
+                    contrasts = self.browser.run(CONTRASTS)
+                    self.assertGreater(len(contrasts), 40)
+                    self.assertEqual([c for c in contrasts if c[1] < 4.5], [])
+            self.at_end()
+
+    def test_pictures_are_said_in_words(self):
+        self.open("a.html", "#layer=97")
+        labels = self.browser.run("[...document.querySelectorAll('canvas')].map(c => [c.getAttribute('role'), c.getAttribute('aria-label')])")
+        self.assertEqual(len(labels), 4)
+        for role, label in labels:
+            self.assertEqual(role, "img")
+            self.assertGreater(len(label), 60)
+        drawing = self.browser.run("document.querySelector('canvas.drawing').getAttribute('aria-label')")
+        self.assertIn("layer 97", drawing)
+        self.assertIn(self.text("#said"), drawing)
+        self.assertEqual(self.browser.run("document.getElementById('said').getAttribute('aria-live')"), "polite")
+        self.assertIn("Layer 97", self.browser.run("document.getElementById('slider').getAttribute('aria-valuetext')"))
+        nameless = self.browser.run("[...document.querySelectorAll('button, select, input')].filter(e => !(e.textContent.trim() || e.getAttribute('aria-label') || e.labels?.length)).length")
+        self.assertEqual(nameless, 0)
+
+    def test_two_runs_on_one_slider(self):
+        self.assertEqual(make_page(self.folder, "a.layers", "b.layers", "-o", "ab.html").returncode, 0)
+        other = json.loads((self.folder / "b.json").read_text())
+        shapes = [json.loads(line) for line in (self.folder / "b.layers").read_text().splitlines()[1:]]
+        self.open("ab.html")
+        for k in (97, 60):
+            self.slide(k)
+            self.check_layer(k, self.report, self.shapes, 0)
+            self.check_layer(k, other, shapes, 1)
+        self.browser.screenshot(SCREENSHOTS / "straightened_or_not.png")
+        a, b = (r["totals"]["support_printed_length_mm"] for r in (self.report, other))
+        row = self.browser.run("document.querySelector('#run-figures [data-figure=support_printed_length_mm]').parentElement.lastChild.textContent")
+        self.assertEqual(row, f"{100 * (b / a - 1):+.1f} %")
+        self.at_end()
+
+    def test_layers_of_two_heights_are_matched_by_z(self):
+        generate(self.folder, CUBE, "--layer-height", "0.3", "--layers", "thick.layers", "--report", "thick.json")
+        self.assertEqual(make_page(self.folder, "thick.layers", "a.layers", "-o", "heights.html").returncode, 0)
+        thick = json.loads((self.folder / "thick.json").read_text())["layers"]
+        self.open("heights.html")
+        for k in (0, 7, 50, 99):
+            self.slide(k)
+            z = 0.2 * k + 0.1
+            match = next(layer for layer in thick if abs(layer["z_mm"] - z) <= 0.15)
+            self.assertAlmostEqual(float(self.figures("layer-figures", 0)["shell_volume_mm3"]), match["shell_volume_mm3"], delta=0.001)
+            self.assertAlmostEqual(float(self.figures("layer-figures", 1)["shell_volume_mm3"]), self.report["layers"][k]["shell_volume_mm3"], delta=0.001)
+        self.at_end()
+
+    def test_gcode_of_any_slicer(self):
+        done = subprocess.run([PROGRAM, "verify", CORPUS / "verify/cantilever.gcode", "--html", "v.html", "--report", "v.json", "--quiet"], cwd=self.folder)
+        self.assertEqual(done.returncode, 1)
+        report = json.loads((self.folder / "v.json").read_text())
+        self.open("v.html")
+        layers = report["layers"]
+        worst = max(layers, key=lambda layer: layer["unsupported_mm"][1])
+        self.assertEqual(self.shown()[0], worst["layer"])
+        self.assertAlmostEqual(float(self.figures("layer-figures")["hangs_mm"]), worst["unsupported_mm"][1], delta=0.001)
+        self.assertIn("hangs", self.text("#caption"))
+        self.assertIn("Hangs on 1 of", self.text("header"))
+        self.browser.screenshot(SCREENSHOTS / "gcode.png")
+        self.assertEqual(make_page(self.folder, CORPUS / "prusa_slicer.gcode", CORPUS / "cura.gcode", "-o", "slicers.html").returncode, 0)
+        self.open("slicers.html")
+        self.browser.screenshot(SCREENSHOTS / "slicers.png")
+        self.at_end()
+
+
+class Files(unittest.TestCase):
+    """What needs no browser."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def test_the_same_bytes_from_the_run_and_from_its_layers_file_for_any_number_of_threads(self):
+        pages, files = set(), set()
+        for threads in (1, 2, 5):
+            generate(self.folder, CUBE, "--layers", "a.layers", "--html", "a.html", "--threads", threads)
+            self.assertEqual(make_page(self.folder, "a.layers", "-o", "b.html").returncode, 0)
+            pages |= {(self.folder / "a.html").read_bytes(), (self.folder / "b.html").read_bytes()}
+            files.add((self.folder / "a.layers").read_bytes())
+        self.assertEqual((len(pages), len(files)), (1, 1))
+
+    def refuse(self, code, fragment, *arguments):
+        done = make_page(self.folder, *arguments, "-o", "page.html")
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn(fragment, done.stderr)
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        self.assertFalse((self.folder / "page.html").exists())
+
+    def test_files_that_are_not_whole_are_refused_by_name(self):
+        generate(self.folder, CUBE, "--layers", "a.layers", "--report", "a.json")
+        lines = (self.folder / "a.layers").read_text().splitlines()
+
+        def write(name, *changed):
+            (self.folder / name).write_text("\n".join(changed) + "\n")
+
+        write("old.layers", lines[0].replace("ribvault-layers/1", "ribvault-layers/0"), *lines[1:])
+        self.refuse(3, "old.layers: line 1 is of schema ribvault-layers/0; expected a layers file, schema ribvault-layers/1", "old.layers")
+        write("less.layers", *lines[:7], lines[7].replace('"trees":', '"threes":'), *lines[8:])
+        self.refuse(3, 'less.layers: line 8 has no "trees"', "less.layers")
+        write("cut.layers", *lines[:50])
+        self.refuse(3, "cut.layers is cut off: it ends after 49 of 100 layers", "cut.layers")
+        (self.folder / "half.layers").write_text("\n".join(lines)[:200000])
+        self.refuse(3, "half.layers: line", "half.layers")
+        self.refuse(3, "a.json", "a.json")
+        (self.folder / "rubbish").write_bytes(bytes(range(256)) * 10)
+        self.refuse(3, "rubbish", "rubbish")
+        (self.folder / "empty").write_text("")
+        self.refuse(3, "empty", "empty")
+        self.refuse(3, "none", "none")
+        self.refuse(3, "cut.layers", "a.layers", "cut.layers")
+        self.assertEqual(make_page(self.folder, "a.layers", "a.layers", "a.layers", "-o", "page.html").returncode, 2)
+        self.assertEqual(make_page(self.folder, "a.layers").returncode, 2)
+        self.assertEqual(make_page(self.folder, "a.layers", "-o", "no/such/page.html").returncode, 6)
+
+
+if __name__ == "__main__":
+    if FOUND is None:
+        print("skipped: no Chromium on this machine; scripts/setup installs it (package chromium), or name one with CHROMIUM=")
+        unittest.TextTestRunner(verbosity=2).run(unittest.defaultTestLoader.loadTestsFromTestCase(Files)).wasSuccessful() or sys.exit(1)
+        sys.exit(77)
+    unittest.main(verbosity=2)
