@@ -5,16 +5,19 @@ function chartsOf(run) {
   const list = of => Float64Array.from({ length: run.count }, (_, k) => of(k));
   if (run.kind === "gcode")
     return [
-      { title: "Length of tracks, mm", total: "tracks", parts: [{ name: "tracks", colour: "track", values: list(k => run.length(k)) }] },
-      { title: "Volume, mm³", total: "material", parts: [{ name: "material", colour: "shell", values: list(k => run.volume(k)) }] },
-      { title: "Area that hangs, mm²", total: "hangs", parts: [{ name: "hangs", colour: "hang", values: list(k => { const [lo, hi] = run.area(k); return (lo + hi) / 2; }) }] },
+      { title: "Length of tracks, mm", parts: [{ name: "tracks", colour: "track", values: list(k => run.length(k)) }] },
+      { title: "Extruded, mm³", parts: [{ name: "tracks", colour: "shell", values: list(k => run.volume(k)) }] },
+      { title: "Area that hangs, mm²", parts: [{ name: "hangs", colour: "hang", values: list(k => { const [lo, hi] = run.area(k); return (lo + hi) / 2; }) }] },
     ];
   return [
-    { title: "Length of supports as printed, mm", total: "supports", parts: [{ name: "supports", colour: "track", values: list(k => run.numbers(k).support_printed_length_mm) }] },
-    { title: "Volume, mm³", total: "material", parts: [{ name: "shell and covers", colour: "shell", values: list(k => run.numbers(k).shell_volume_mm3) },
+    { title: "Length of supports as printed, mm", parts: [{ name: "supports", colour: "track", values: list(k => run.numbers(k).support_printed_length_mm) }] },
+    { title: "Volume, mm³", parts: [{ name: "shell and covers", colour: "shell", values: list(k => run.numbers(k).shell_volume_mm3) },
       { name: "supports", colour: "track", values: list(k => run.numbers(k).support_volume_mm3) }] },
   ];
 }
+/** The chart that runs of both kinds have. */
+const extrudedChart = run => run.kind === "gcode" ? chartsOf(run)[1]
+  : { title: "Extruded, mm³", parts: [{ name: "tracks", colour: "shell", values: Float64Array.from({ length: run.count }, (_, k) => run.numbers(k).extruded_mm3) }] };
 const sumOf = (chart, k) => k < 0 ? 0 : chart.parts.reduce((s, p) => s + p.values[k], 0);
 
 class Chart {

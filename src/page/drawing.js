@@ -44,9 +44,9 @@ function linePaths(run, entry, apart) {
 }
 
 class LayerView {
-  /** `frame`: {zoom, x, y}: how much nearer than all of it, and which place, mm from the box's middle, is in the middle. */
-  constructor(canvas, run, frame, changed) {
-    Object.assign(this, { canvas, run, frame, changed, layer: 0, marked: null });
+  /** `extent`: mm that fit without zoom, {x, y}; `frame`: {zoom, x, y}: how much nearer than all of it, and which place, mm from the box's middle, is in the middle. */
+  constructor(canvas, run, extent, frame, changed) {
+    Object.assign(this, { canvas, run, extent, frame, changed, layer: 0, marked: null });
     this.paths = remember(40, k => run.kind === "layers" ? vaultPaths(run, k) : null);
     this.own = remember(80, e => linePaths(run, e, true));
     this.all = remember(80, e => linePaths(run, e, false));
@@ -54,13 +54,13 @@ class LayerView {
     this.listen();
   }
   get scale() {
-    const [x0, y0, x1, y1] = this.run.box, pad = 16, w = this.canvas.clientWidth, h = this.canvas.clientHeight;
-    return Math.min((w - 2 * pad) / Math.max(1, x1 - x0), (h - 2 * pad - 24) / Math.max(1, y1 - y0)) * this.frame.zoom;
+    const w = this.canvas.clientWidth - 32, h = this.canvas.clientHeight - 68;  // room for the title and the scale bar
+    return Math.min(w / this.extent.x, h / this.extent.y) * this.frame.zoom;
   }
   /** Pixels of the place that lies at x = 0, y = 0 on the bed. */
   origin() {
     const [x0, y0, x1, y1] = this.run.box, s = this.scale;
-    return [this.canvas.clientWidth / 2 - s * ((x0 + x1) / 2 + this.frame.x), (this.canvas.clientHeight + 20) / 2 + s * ((y0 + y1) / 2 + this.frame.y)];
+    return [this.canvas.clientWidth / 2 - s * ((x0 + x1) / 2 + this.frame.x), this.canvas.clientHeight / 2 + s * ((y0 + y1) / 2 + this.frame.y)];
   }
   fit() { Object.assign(this.frame, { zoom: 1, x: 0, y: 0 }); this.marked = null; this.changed(); }
   move(dx, dy) { this.frame.x -= dx / this.scale; this.frame.y += dy / this.scale; this.changed(); }
@@ -100,12 +100,15 @@ class LayerView {
     const { run, layer, scale } = this, p = this.paths(layer), pixel = 1 / scale;
     const stroke = (path, c, width, alpha = 1) => { g.globalAlpha = alpha; g.strokeStyle = colour(c); g.lineWidth = width; g.stroke(path); g.globalAlpha = 1; };
     g.fillStyle = colour("shell"); g.fill(p.shell, "evenodd");
+    stroke(p.shell, "edge", 0.8 * pixel);
     stroke(p.tracks, "track", Math.max(run.nozzle, 2.2 * pixel));
     stroke(p.patches, "patch", Math.max(run.nozzle, 2.5 * pixel), 0.8);
     g.globalAlpha = 0.5; g.fillStyle = colour("hang"); g.fill(p.unsupported); g.globalAlpha = 1;
     stroke(p.unsupported, "hang", 1.5 * pixel);
     stroke(p.tracks, "line", Math.max(0.05, pixel));
-    this.paintMarks(g, colour, Math.max(run.nozzle, 5 * pixel));
+    const marks = Object.values(run.marks(layer)).reduce((n, list) => n + list.length, 0);
+    const apart = run.numbers(layer).support_length_mm / Math.max(1, marks);  // mm between marks on average
+    this.paintMarks(g, colour, Math.max(run.nozzle, Math.min(6 * pixel, 0.6 * apart)));
   }
   paintMarks(g, colour, w) {
     const { vertices: v } = this.run.shapes(this.layer), marks = this.run.marks(this.layer), at = i => [v[2 * i], v[2 * i + 1]];

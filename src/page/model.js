@@ -1,7 +1,8 @@
 // Triangles of a model from its layers: every contour and track extruded by its layer's height. Large models are drawn from
 // fewer layers and simpler lines, so that any model opens and turns quickly.
 
-const mostLayers = 400, mostCorners = 90000;  // drawn of one part of a model
+/** How much of a model is drawn: all that a screen shows; and what a machine without a graphics processor turns quickly. */
+const fine = { layers: 1600, trackLayers: 400, shell: 220000, tracks: 90000 }, coarse = { layers: 60, trackLayers: 60, shell: 2500, tracks: 2500 };
 
 /** x, y pairs without those that lie within `tolerance` of the line through their neighbours (Douglas and Peucker). */
 function simplified(points, tolerance, closed) {
@@ -76,29 +77,29 @@ class Triangles {
 
   /** The wall over a closed contour, seen from its right. Corners sharper than about 40 degrees stay sharp. */
   wall(c, z0, z1) {
-    const n = c.length / 2;
+    const n = c.length / 2, from = new Int32Array(n), to = new Int32Array(n);  // corners with which side k begins, and the one before it ends
     this.room(4 * n, 6 * n);
     const side = k => {
-      const a = 2 * (k % n), b = 2 * ((k + 1) % n), l = Math.hypot(c[b] - c[a], c[b + 1] - c[a + 1]) || 1;
+      const a = 2 * k, b = 2 * ((k + 1) % n), l = Math.hypot(c[b] - c[a], c[b + 1] - c[a + 1]) || 1;
       return [(c[b + 1] - c[a + 1]) / l, (c[a] - c[b]) / l];
     };
-    let before = side(n - 1);
-    for (let k = 0; k < n; ++k) {
-      const here = side(k), after = side(k + 1), smooth = (s, t) => s[0] * t[0] + s[1] * t[1] > 0.77;
-      const [px, py] = smooth(before, here) ? [before[0] + here[0], before[1] + here[1]] : here, p = Math.hypot(px, py) || 1;
-      const [qx, qy] = smooth(here, after) ? [after[0] + here[0], after[1] + here[1]] : here, q = Math.hypot(qx, qy) || 1;
-      const a = 2 * k, b = 2 * ((k + 1) % n);
-      const a0 = this.corner(c[a], c[a + 1], z0, px / p, py / p, 0), a1 = this.corner(c[a], c[a + 1], z1, px / p, py / p, 0);
-      const b0 = this.corner(c[b], c[b + 1], z0, qx / q, qy / q, 0), b1 = this.corner(c[b], c[b + 1], z1, qx / q, qy / q, 0);
-      this.quad(a0, b0, b1, a1);
-      before = here;
+    const pair = (k, x, y) => { const at = this.corner(c[2 * k], c[2 * k + 1], z0, x, y, 0); this.corner(c[2 * k], c[2 * k + 1], z1, x, y, 0); return at; };
+    for (let k = 0, before = side(n - 1); k < n; ++k) {
+      const after = side(k), x = before[0] + after[0], y = before[1] + after[1], l = Math.hypot(x, y);
+      if (l > 1.88) from[k] = to[k] = pair(k, x / l, y / l);
+      else { to[k] = pair(k, ...before); from[k] = pair(k, ...after); }
+      before = after;
     }
+    for (let k = 0; k < n; ++k) { const p = from[k], q = to[(k + 1) % n]; this.quad(p, q, q + 1, p + 1); }
   }
-  /** A level face: contours of slice and cavity, outer ones counter-clockwise. */
+  /** A level face: contours of slice and cavity, outer ones counter-clockwise. Left out where simplified contours cross. */
   face(region, z) {
+    const area = (a, b, c) => Math.abs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)) / 2;
     for (const { outer, holes } of nested(region)) {
       const vectors = c => Array.from({ length: c.length / 2 }, (_, k) => new THREE.Vector2(c[2 * k], c[2 * k + 1]));
       const o = vectors(outer), h = holes.map(vectors), faces = THREE.ShapeUtils.triangulateShape(o, h), all = [o, ...h].flat();
+      const covered = faces.reduce((s, [a, b, c]) => s + area(all[a], all[b], all[c]), 0), wanted = areaOf([outer, ...holes]);
+      if (Math.abs(covered - wanted) > 0.05 * wanted) continue;
       this.room(all.length, 3 * faces.length);
       const first = this.corners;
       for (const p of all) this.corner(p.x, p.y, z, 0, 0, 1);
@@ -162,9 +163,9 @@ function nested(region) {
   return outers;
 }
 
-/** Layers of which a model is drawn: [[first, last]]. */
-function groupsOf(count) {
-  const step = Math.max(1, Math.ceil(count / mostLayers)), groups = [];
+/** Layers of which a model is drawn, at most `most`: [[first, last]]. */
+function groupsOf(count, most) {
+  const step = Math.max(1, Math.ceil(count / most)), groups = [];
   for (let k = 0; k < count; k += step) groups.push([k, Math.min(count, k + step) - 1]);
   return groups;
 }
@@ -180,15 +181,43 @@ function partsOf(run, k) {
   return { shell: [], walls, skin };
 }
 
-/** How far lines may be from the true ones so that at most mostCorners corners are drawn of each part; from some layers. */
-function toleranceOf(run, groups, size) {
-  const step = Math.max(1, Math.floor(groups.length / 12)), sample = groups.filter((_, k) => k % step === 0).map(([k]) => partsOf(run, k));
-  const count = (part, t) => sample.reduce((s, p) => s + p[part].reduce((n, l) => n + simplified(l.points || l, t, !l.points).length / 2, 0), 0) * groups.length / sample.length;
-  const tolerance = {};
-  for (const part of ["shell", "walls", "skin"]) {
-    let t = size / 4000;
-    while (t < size / 50 && count(part, t) > mostCorners) t *= 1.6;
-    tolerance[part] = t;
-  }
-  return tolerance;
+/** A contour or a line, simplified; null: too small to be seen. */
+function drawnContour(c, tolerance) {
+  const s = simplified(c, tolerance, true);
+  return s.length < 6 ? null : s;
+}
+function drawnLine(points, tolerance) {
+  const s = simplified(points, tolerance, false), n = s.length;
+  return n === 4 && Math.hypot(s[2] - s[0], s[3] - s[1]) < 2 * tolerance ? null : s;
+}
+
+/** What to draw of a run at a level: groups of layers, how many of them share their tracks, and how far lines may be from the true
+ *  ones, mm. Found from some of the layers. The shell's contours stay within 3/4 of a track, so that they do not cross; where that
+ *  leaves too many corners, more layers are drawn as one. */
+function planOf(run, level, size) {
+  const groups = groupsOf(run.count, level.layers), step = Math.max(1, Math.floor(groups.length / 12));
+  const sample = groups.filter((_, k) => k % step === 0).map(([, last]) => partsOf(run, last)), share = groups.length / sample.length;
+  const count = lines => sample.reduce((n, p) => n + lines(p).reduce((m, points) => m + (points ? points.length / 2 : 0), 0), 0) * share;
+  const fit = (most, greatest, lines) => {
+    let t = size / 5000;
+    while (t < greatest && count(p => lines(p, t)) > most) t *= 1.4;
+    return Math.min(t, greatest);
+  };
+  const shell = (p, t) => p.shell.map(c => drawnContour(c, t)), every = Math.ceil(groups.length / level.trackLayers), tracks = part => (p, t) => p[part].map(l => drawnLine(l.points, t));
+  const tolerance = { shell: fit(level.shell, level === fine ? 0.75 * (run.nozzle || 1) : size / 40, shell), walls: fit(level.tracks * every, size / 40, tracks("walls")), skin: fit(level.tracks * every, size / 40, tracks("skin")) };
+  const layers = Math.max(1, Math.floor(groups.length / Math.max(1, count(p => shell(p, tolerance.shell)) / level.shell / 1.1)));
+  return level === fine && layers < groups.length ? { ...planOf(run, { ...level, layers }, size), tolerance } : { groups, every, tolerance };
+}
+
+/** Adds layers `first` to `last`, drawn as the last of them, to the triangles of the parts; the shell's simplified contours.
+ *  Tracks stand from `tracksFrom` on; null: they come with a layer above. */
+function addGroup(run, [first, last], tracksFrom, tolerance, parts) {
+  const z0 = run.bottom(first), z1 = run.top(last), p = partsOf(run, last);
+  const contours = layer => layer.shell.map(c => drawnContour(c, tolerance.shell)).filter(Boolean), shell = contours(p);
+  if (first === 0 && last > 0) parts.shell.face(contours(partsOf(run, 0)), run.top(0));  // the floor
+  for (const c of shell) parts.shell.wall(c, z0, z1);
+  if (shell.length) parts.shell.face(shell, z1);
+  for (const part of tracksFrom === null ? [] : ["walls", "skin"])
+    for (const l of p[part]) { const points = drawnLine(l.points, tolerance[part]); if (points) parts[part].track(points, l.width, tracksFrom, z1); }
+  return { z0, z1, shell };
 }

@@ -35,9 +35,11 @@ class Page {
     this.runs = runs;
     this.two = runs.length > 1;
     this.lead = this.two && runs[1].count > runs[0].count ? 1 : 0;
-    this.names = runs.map((r, k) => this.two && runs[0].name === runs[1].name ? `${"AB"[k]}: ${r.name}` : r.name);
+    this.names = runs.map((r, k) => this.two ? "AB"[k] : r.name);
+    const most = of => Math.max(1, ...runs.map(of));
+    this.extent = { x: most(r => r.box[2] - r.box[0]), y: most(r => r.box[3] - r.box[1]), z: most(r => r.top(r.count - 1)) };
     document.body.classList.toggle("two", this.two);
-    document.title = this.names.join(" | ") + " - ribvault";
+    document.title = runs.map(r => r.name).join(" | ") + " - ribvault";
     this.header();
     this.pictures();
     const steps = runs[this.lead].count;
@@ -62,7 +64,7 @@ class Page {
     return best;
   }
   header() {
-    this.runs.forEach((run, r) => $("runs").append(made("div", {}, made("h1", {}, this.names[r]),
+    this.runs.forEach((run, r) => $("runs").append(made("div", {}, made("h1", {}, this.two ? `${this.names[r]}: ${run.name}` : run.name),
       made("p", {}, made("span", { class: run.good ? "verdict" : "verdict bad" }, runVerdict(run)), " " + runWords(run)))));
   }
 
@@ -71,18 +73,19 @@ class Page {
     this.drawings = []; this.models = [];
     const drawings = [], models = [];
     this.runs.forEach((run, r) => {
-      const drawing = made("canvas", { role: "img", tabindex: 0, class: "drawing" }), view = new LayerView(drawing, run, frame, () => this.paint());
+      const drawing = made("canvas", { role: "img", tabindex: 0, class: "drawing" }), view = new LayerView(drawing, run, this.extent, frame, () => this.paint());
       const zoom = made("span", { class: "row zoom" });
       for (const [sign, words, act] of [["+", "Zoom in", () => view.zoom(1.4)], ["−", "Zoom out", () => view.zoom(1 / 1.4)], ["fit", "Show all of the layer", () => view.fit()]]) {
         const b = made("button", { "aria-label": words, title: words }, sign);
         b.onclick = act;
         zoom.append(b);
       }
-      drawings.push(made("div", { class: "view" }, made("p", { class: "title" }), drawing, made("div", { class: "tools" }, zoom, legend(run))));
+      drawings.push(made("div", { class: "view" }, made("p", { class: "title" }), drawing, made("div", { class: "tools zooms" }, zoom, ...(this.two ? [] : [legend(run)]))));
       this.drawings.push(view);
       models.push(this.model(run, r));
     });
-    $("views").append(...(this.two ? [...drawings, ...models] : [...models, ...drawings]));
+    const legends = [...new Map(this.runs.map(run => [run.kind, run])).values()].map(legend);
+    $("views").append(...(this.two ? [...drawings, ...legends, ...models] : [...models, ...drawings]));
   }
   model(run, r) {
     const canvas = made("canvas", { role: "img", tabindex: 0, class: "model" }), busy = made("p", { class: "busy", role: "status" }, "building the model");
@@ -91,9 +94,10 @@ class Page {
       cut.append(made("option", { value }, words));
     const peel = made("select", { "aria-label": "Layers of the model" });
     for (const [value, words] of [["all", "all layers"], ["peel", "up to this layer"]]) peel.append(made("option", { value }, words));
-    const view = made("div", { class: "view" }, made("p", { class: "title" }), canvas, busy, made("div", { class: "tools" }, cut, peel));
+    const view = made("div", { class: "view" }, made("p", { class: "title" }, this.two ? this.names[r] : "the model; orange: the shown layer"), canvas, busy, made("div", { class: "tools" }, cut, peel));
     try {
-      const model = new ModelView(canvas, run, share => { busy.textContent = `building the model, ${Math.round(100 * share)} %`; busy.hidden = share === 1; });
+      const model = new ModelView(canvas, run, this.extent, share => { busy.textContent = `building the model, ${Math.round(100 * share)} %`; busy.hidden = share === 1; });
+      cut.value = model.cut;
       cut.onchange = () => this.models.forEach((m, k) => { m.cut = cut.value; this.cuts[k].value = cut.value; if (cut.value !== "whole" && cut.value !== "hidden") m.look(); m.show(); });
       peel.onchange = () => this.peel(peel.value === "peel");
       model.controls.addEventListener("change", () => { if (!this.following) { this.following = true; this.models.filter(m => m !== model).forEach(m => m.follow(model)); this.following = false; } });
@@ -104,7 +108,7 @@ class Page {
       busy.textContent = "This browser has no WebGL, so there is no model in 3D; the drawing of each layer shows the same.";
       cut.disabled = peel.disabled = true;
     }
-    canvas.setAttribute("aria-label", `${this.names[r]} in 3D, ${fixed(run.box[2] - run.box[0], 0)} by ${fixed(run.box[3] - run.box[1], 0)} by ${fixed(run.top(run.count - 1), 0)} mm: ` +
+    canvas.setAttribute("aria-label", `${this.two ? this.names[r] + ", " : ""}${run.name} in 3D, ${fixed(run.box[2] - run.box[0], 0)} by ${fixed(run.box[3] - run.box[1], 0)} by ${fixed(run.top(run.count - 1), 0)} mm: ` +
       "the shell with one half cut away and the support walls inside; the shown layer stands out.");
     return view;
   }
@@ -118,7 +122,7 @@ class Page {
   makeCharts(steps) {
     const per = this.runs.map(chartsOf);
     let pairs = per[0].map(c => [c]);
-    if (this.two) pairs = this.runs[0].kind === this.runs[1].kind ? per[0].map((c, k) => [c, per[1][k]]) : [[per[0][1], per[1][1]]];
+    if (this.two) pairs = this.runs[0].kind === this.runs[1].kind ? per[0].map((c, k) => [c, per[1][k]]) : [this.runs.map(extrudedChart)];
     return pairs.map(charts => {
       const chart = new Chart(charts, this.names, steps, s => this.layers(s), s => this.controls.by(() => s));
       $("charts").append(chart.figure);
@@ -157,7 +161,7 @@ class Page {
     }
     const table = $(id);
     table.replaceChildren(body);
-    if (this.two) table.prepend(made("thead", {}, made("tr", {}, made("th", { scope: "col" }, ""), ...this.names.map(n => made("th", { scope: "col", title: n }, n)), made("th", { scope: "col" }, "B to A"))));
+    if (this.two) table.prepend(made("thead", {}, made("tr", {}, made("th", { scope: "col" }, ""), ...this.names.map((n, r) => made("th", { scope: "col", title: this.runs[r].name }, n)), made("th", { scope: "col" }, "B to A"))));
   }
 
   show(step) {
@@ -168,7 +172,7 @@ class Page {
       if (view.layer !== k) view.marked = null;
       view.layer = k;
       this.models[r]?.go(k);
-      view.canvas.previousSibling.textContent = (this.two ? this.names[r] + ", " : "") + (k < 0 ? none : heading(run, k));
+      view.canvas.previousSibling.textContent = this.two ? `${this.names[r]}, ${k < 0 ? none : `layer ${k}: ${layerVerdict(run, k)}`}` : heading(run, k);
     });
     this.charts.forEach(c => c.go(step));
     $("caption").textContent = layers.map((k, r) => (this.two ? this.names[r] + ": " : "") + (k < 0 ? none : heading(this.runs[r], k))).join(" · ").replace(/^l/, "L");
@@ -181,7 +185,7 @@ class Page {
     const layers = this.layers(this.step);
     $("layer-title").textContent = `Layer ${this.step} of 0 to ${this.controls.steps - 1}`;
     $("said").replaceChildren(...layers.map((k, r) => made("p", {}, (this.two ? this.names[r] + ": " : "") + (k < 0 ? "nothing at this height." : layerWords(this.runs[r], k)))));
-    layers.forEach((k, r) => this.drawings[r].canvas.setAttribute("aria-label", `Drawing of ${this.names[r]}, ${k < 0 ? "nothing at this height" : heading(this.runs[r], k) + ". " + layerWords(this.runs[r], k)}`));
+    layers.forEach((k, r) => this.drawings[r].canvas.setAttribute("aria-label", `Drawing of ${this.two ? this.names[r] + ", " : ""}${this.runs[r].name}, ${k < 0 ? "nothing at this height" : heading(this.runs[r], k) + ". " + layerWords(this.runs[r], k)}`));
     this.fill("layer-figures", layers.map((k, r) => k < 0 ? [] : layerFigures(this.runs[r], k)));
     this.places(layers);
   }

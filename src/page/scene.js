@@ -1,69 +1,73 @@
 // The model in 3D: the shell with one half cut away, the walls inside, the layer that is shown.
 
 class ModelView {
-  /** `changed`: the camera moved. */
-  constructor(canvas, run, progress) {
-    Object.assign(this, { canvas, run, cut: "front", peel: false, layer: run.count - 1, ready: false });
+  /** `extent`: size of the largest run on the page, mm: {x, y, z}; `progress(share)` is told while the model is built. */
+  constructor(canvas, run, extent, progress) {
+    Object.assign(this, { canvas, run, cut: extent.y > extent.x ? "left" : "front", peel: false, layer: run.count - 1, ready: false, slow: false, moving: false, meshes: {} });
     const [x0, y0, x1, y1] = run.box;
     this.middle = [(x0 + x1) / 2, (y0 + y1) / 2];
     this.height = run.top(run.count - 1);
-    this.size = Math.hypot(x1 - x0, y1 - y0, this.height);
+    this.size = Math.hypot(extent.x, extent.y, extent.z);
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
     this.renderer.localClippingEnabled = true;
     this.camera = new THREE.PerspectiveCamera(30, 1, this.size / 100, this.size * 20);
     this.camera.up.set(0, 0, 1);
     this.controls = new THREE.OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("change", () => this.draw(true));
     this.scene = new THREE.Scene();
-    this.light = new THREE.DirectionalLight(0xffffff, 2.1);
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8890a0, 1.5), this.light);
+    this.light = new THREE.DirectionalLight(0xffffff, 2.0);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x586070, 1.3), this.light);
     this.cutPlane = new THREE.Plane();
     this.topPlane = new THREE.Plane(new THREE.Vector3(0, 0, -1), this.height);
     const material = () => new THREE.MeshLambertMaterial({ side: THREE.DoubleSide });
     this.materials = { shell: material(), walls: material(), skin: material(), layer: material(), section: new THREE.MeshBasicMaterial({ side: THREE.DoubleSide }) };
-    this.meshes = {};
     this.look();
     this.show();
     this.listen();
     this.built = this.build(progress);
   }
 
-  /** Builds the meshes a few layers at a time, so that the page answers meanwhile. */
+  /** Builds the coarse model at once, then the fine one a few layers at a time, so that the page answers meanwhile. */
   async build(progress) {
-    const { run } = this, groups = groupsOf(run.count), tolerance = toleranceOf(run, groups, this.size);
-    const parts = { shell: new Triangles(), walls: new Triangles(), skin: new Triangles() };
-    this.sections = [];  // simplified shell contours, for the cut
+    const { run } = this;
     let since = performance.now();
-    for (let g = 0; g < groups.length; ++g) {
-      const [first, last] = groups[g], z0 = run.bottom(first), z1 = run.top(last), p = partsOf(run, last);
-      const shell = p.shell.map(c => simplified(c, tolerance.shell, true));
-      for (const c of shell) parts.shell.wall(c, z0, z1);
-      if (shell.length) parts.shell.face(shell, z1);
-      this.sections.push({ z0, z1, shell });
-      for (const part of ["walls", "skin"]) for (const l of p[part]) parts[part].track(simplified(l.points, tolerance[part], false), l.width, z0, z1);
-      if (performance.now() - since < 30) continue;
-      progress(g / groups.length);
-      await new Promise(resolve => setTimeout(resolve));
-      since = performance.now();
+    for (const level of [coarse, fine]) {
+      const { groups, every, tolerance } = planOf(run, level, this.size);
+      const parts = { shell: new Triangles(), walls: new Triangles(), skin: new Triangles() }, sections = [];
+      for (let g = 0; g < groups.length; ++g) {
+        const tracks = g % every === every - 1 || g + 1 === groups.length;
+        sections.push(addGroup(run, groups[g], tracks ? run.bottom(groups[g - g % every][0]) : null, tolerance, parts));
+        if (performance.now() - since < 30) continue;
+        progress(level === fine ? g / groups.length : 0);
+        await new Promise(resolve => setTimeout(resolve));
+        since = performance.now();
+      }
+      for (const part of Object.keys(parts)) if (parts[part].indices > 0) this.put(part, parts[part], level);
+      if (level === coarse) this.coarseTolerance = tolerance;
+      this.sections = sections;
+      this.show();
     }
-    this.triangles = 0;
-    for (const part of Object.keys(parts)) if (parts[part].indices > 0) this.put(part, parts[part]);
     this.ready = true;
-    this.show();
     progress(1);
+    this.render();
+    await this.finished();
   }
-  put(name, triangles) {
-    if (this.meshes[name]) { this.scene.remove(this.meshes[name]); this.meshes[name].geometry.dispose(); }
-    const mesh = this.meshes[name] = new THREE.Mesh(triangles.geometry(), this.materials[name]);
+  /** Replaces a mesh; `level`: of the model, which of them is drawn depends on the machine. */
+  put(name, triangles, level = null) {
+    const key = level === coarse ? "coarse " + name : name;
+    if (this.meshes[key]) { this.scene.remove(this.meshes[key]); this.meshes[key].geometry.dispose(); }
+    const mesh = this.meshes[key] = new THREE.Mesh(triangles.geometry(), this.materials[name]);
     mesh.position.set(-this.middle[0], -this.middle[1], 0);
+    mesh.userData = { name, level };
     this.scene.add(mesh);
-    this.triangles = (this.triangles || 0) + triangles.indices / 3;
   }
+  get triangles() { return Object.values(this.meshes).reduce((n, m) => n + (m.userData.level === coarse ? 0 : m.geometry.index.count / 3), 0); }
 
   /** Colours, and what is cut away. */
   show() {
     const colour = colours();
     this.scene.background = new THREE.Color(colour("paper"));
+    this.scene.fog = new THREE.Fog(colour("paper"));  // what is farther away is paler
     for (const [name, token] of Object.entries({ shell: "model-shell", skin: "model-shell", walls: "model-walls", layer: "model-layer", section: "model-cut" }))
       this.materials[name].color.set(colour(token));
     const normal = { front: [0, 1], left: [1, 0], back: [0, -1], right: [-1, 0] }[this.cut];
@@ -72,14 +76,12 @@ class ModelView {
     const half = normal ? [this.cutPlane] : [];
     for (const name of ["shell", "skin"]) this.materials[name].clippingPlanes = [...half, this.topPlane];
     this.materials.walls.clippingPlanes = this.materials.section.clippingPlanes = [this.topPlane];
-    for (const name of ["shell", "skin"]) if (this.meshes[name]) this.meshes[name].visible = this.cut !== "hidden";
-    if (this.ready) this.section(normal);
+    if (this.sections) this.section(normal);
     this.draw();
   }
   /** Where the cut meets the shell's material: between every second crossing of its contours. */
   section(normal) {
     const drawn = this.cut + this.sections.length;
-    if (this.meshes.section) this.meshes.section.visible = Boolean(normal);
     if (!normal || this.drawnSection === drawn) return;
     this.drawnSection = drawn;
     const along = normal[0] === 0 ? 0 : 1, across = 1 - along, at = this.middle[across], out = new Triangles();
@@ -100,23 +102,30 @@ class ModelView {
     this.put("section", out);
   }
 
-  /** Shows layer k (-1: none at this height) as it is, in its own colour. */
+  /** Shows layer k (-1: none at this height) in its own colour: as it is, or simplified while a slow machine moves. */
   go(k) {
     this.layer = k;
-    const out = new Triangles();
+    this.topPlane.constant = this.peel && k >= 0 ? this.run.top(k) : this.height + 1;
+    this.draw(true);
+  }
+  layerMesh(moving) {
+    const drawn = `${this.layer} ${moving}`;
+    if (this.drawnLayer === drawn) return;
+    this.drawnLayer = drawn;
+    const out = new Triangles(), k = this.layer;
     if (k >= 0) {
-      const p = partsOf(this.run, k), z0 = this.run.bottom(k), z1 = this.run.top(k) + this.size / 3000;
-      for (const c of p.shell) out.wall(c, z0, z1);
-      if (p.shell.length) out.face(p.shell, z1);
-      for (const l of [...p.walls, ...p.skin]) out.track(l.points, l.width, z0, z1);
+      const p = partsOf(this.run, k), z0 = this.run.bottom(k), z1 = this.run.top(k) + this.size / 3000, t = this.coarseTolerance;
+      const shell = moving ? p.shell.map(c => drawnContour(c, t.shell)).filter(Boolean) : p.shell;
+      for (const c of shell) out.wall(c, z0, z1);
+      if (shell.length) out.face(shell, z1);
+      for (const part of ["walls", "skin"])
+        for (const l of p[part]) { const points = moving ? drawnLine(l.points, t[part]) : l.points; if (points) out.track(points, l.width, z0, z1); }
     }
     this.put("layer", out);
-    this.topPlane.constant = this.peel && k >= 0 ? this.run.top(k) : this.height + 1;
-    this.draw();
   }
 
   look() {
-    const d = 2.05 * this.size, turn = { left: [-0.85, -0.38], back: [0.38, 0.85], right: [0.85, 0.38] }[this.cut] || [0.38, -0.85];
+    const d = 1.85 * this.size, turn = { left: [-0.85, -0.38], back: [0.38, 0.85], right: [0.85, 0.38] }[this.cut] || [0.38, -0.85];
     this.controls.target.set(0, 0, this.height / 2);
     this.camera.position.set(d * turn[0], d * turn[1], this.height / 2 + d * 0.36);
     this.controls.update();
@@ -131,10 +140,16 @@ class ModelView {
   follow(other) {
     this.camera.position.copy(other.camera.position); this.camera.quaternion.copy(other.camera.quaternion);
     this.controls.target.copy(other.controls.target);
-    this.draw();
+    this.draw(true);
   }
 
-  draw() {
+  /** `moving`: more will follow soon. A machine that takes long for a picture draws the coarse model with fewer pixels until there is rest. */
+  draw(moving = false) {
+    if (moving) {
+      this.moving = true;
+      clearTimeout(this.rest);
+      this.rest = setTimeout(() => { this.moving = false; this.draw(); }, 200);
+    }
     if (this.queued) return;
     this.queued = true;
     requestAnimationFrame(() => { this.queued = false; this.render(); });
@@ -142,7 +157,7 @@ class ModelView {
   render() {
     const { canvas, camera, renderer } = this, w = canvas.clientWidth, h = canvas.clientHeight;
     if (w === 0 || h === 0) return;
-    const ratio = Math.min(2, window.devicePixelRatio || 1);
+    const rough = Boolean(this.moving && this.slow), ratio = rough ? 0.5 : Math.min(2, window.devicePixelRatio || 1);
     if (this.drawnSize !== `${w} ${h} ${ratio}`) {
       this.drawnSize = `${w} ${h} ${ratio}`;
       renderer.setPixelRatio(ratio);
@@ -151,8 +166,33 @@ class ModelView {
       camera.fov = camera.aspect < 1 ? 30 / camera.aspect ** 0.8 : 30;
       camera.updateProjectionMatrix();
     }
-    this.light.position.copy(camera.position).add(new THREE.Vector3(0, 0, this.size));
+    this.layerMesh(rough);
+    this.choose(rough || !this.meshes.shell && !this.meshes.skin ? coarse : fine);
+    this.light.position.set(-1.1 * this.size, 0, 0.5 * this.size).applyQuaternion(camera.quaternion).add(camera.position);  // over the left shoulder
+    const away = camera.position.distanceTo(this.controls.target);
+    this.scene.fog.near = away - 0.45 * this.size; this.scene.fog.far = away + 1.1 * this.size;
     renderer.render(this.scene, camera);
+    if (!rough) this.measure();
+  }
+  choose(level) {
+    for (const mesh of Object.values(this.meshes)) {
+      const { name, level: own } = mesh.userData;
+      mesh.visible = (own === null || own === level) && (name !== "section" || this.cut !== "whole" && this.cut !== "hidden") && (name === "walls" || name === "layer" || this.cut !== "hidden");
+    }
+  }
+  /** Whether the fine model takes more than 40 ms to draw here. */
+  async measure() {
+    if (!this.ready) return;
+    const start = performance.now();
+    await this.finished();
+    this.slow = performance.now() - start > 40;
+  }
+  /** When everything sent to the graphics processor is drawn. */
+  async finished() {
+    const gl = this.renderer.getContext(), fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    while (fence && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) await new Promise(resolve => setTimeout(resolve, 4));
+    gl.deleteSync(fence);
   }
   listen() {
     this.canvas.addEventListener("keydown", e => {

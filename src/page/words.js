@@ -9,11 +9,11 @@ const time = s => s >= 3600 ? `${Math.floor(s / 3600)} h ${Math.round(s % 3600 /
 function layerFigures(run, k) {
   if (run.kind === "gcode") {
     const [lo, hi] = run.area(k);
-    return [["volume_mm3", "material, mm³", run.volume(k), 3], ["length_mm", "tracks, mm", run.length(k), 3],
+    return [["extruded_mm3", "extruded, mm³", run.volume(k), 3], ["length_mm", "tracks, mm", run.length(k), 3],
       ["hangs_mm", "of these without material within ρ below, mm", run.sum(k, e => e.hangs), 3], ["area_mm2", "that hangs, mm²", (lo + hi) / 2, 3]];
   }
   const n = run.numbers(k), m = run.marks(k);
-  return [["volume_mm3", "material, mm³", n.shell_volume_mm3 + n.support_volume_mm3, 3], ["shell_volume_mm3", "shell and covers, mm³", n.shell_volume_mm3, 3],
+  return [["extruded_mm3", "extruded, mm³", n.extruded_mm3, 3], ["volume_mm3", "material, mm³", n.shell_volume_mm3 + n.support_volume_mm3, 3], ["shell_volume_mm3", "shell and covers, mm³", n.shell_volume_mm3, 3],
     ["support_volume_mm3", "supports, mm³", n.support_volume_mm3, 3], ["support_length_mm", "supports, centre lines, mm", n.support_length_mm, 3],
     ["support_printed_length_mm", "supports as printed, without gaps, mm", n.support_printed_length_mm, 3], ["trees", "trees", n.trees, 0],
     ["roots", "roots", m.roots.length, 0], ["junctions", "junctions", m.junctions.length, 0], ["tips", "tips", m.tips.length, 0],
@@ -28,11 +28,11 @@ function runFigures(run) {
       length += run.length(k), volume += run.volume(k), hangs += run.sum(k, e => e.hangs);
       const a = run.area(k); area = [area[0] + a[0], area[1] + a[1]];
     }
-    return [["layers", "layers", run.count, 0], ["material_mm3", "material, mm³", volume, 1], ["length_mm", "tracks, mm", length, 0],
+    return [["layers", "layers", run.count, 0], ["extruded_mm3", "extruded, mm³", volume, 1], ["length_mm", "tracks, mm", length, 0],
       ["hangs_mm", "of these without material within ρ below, mm", hangs, 2], ["area_mm2", "that hangs, mm²", (area[0] + area[1]) / 2, 2]];
   }
   const t = run.header.totals;
-  return [["layers", "layers", t.layers, 0], ["material_mm3", "material, mm³", t.material_mm3, 1], ["shell_volume_mm3", "shell and covers, mm³", t.shell_volume_mm3, 1],
+  return [["layers", "layers", t.layers, 0], ["extruded_mm3", "extruded, mm³", t.extruded_mm3, 1], ["material_mm3", "material, mm³", t.material_mm3, 1], ["shell_volume_mm3", "shell and covers, mm³", t.shell_volume_mm3, 1],
     ["support_volume_mm3", "supports, mm³", t.support_volume_mm3, 1], ["support_printed_length_mm", "supports as printed, mm", t.support_printed_length_mm, 0],
     ["filament_mm", "filament, m", t.filament_mm / 1000, 2], ["print_seconds", "print time, min", t.print_seconds / 60, 0]];
 }
@@ -64,7 +64,7 @@ function heading(run, k) { return `layer ${k}, z ${fixed(run.bottom(k), 2)} to $
 function layerWords(run, k) {
   if (run.kind === "gcode") {
     const [lo, hi] = run.area(k), length = run.length(k);
-    return `${fixed(length, 1)} mm of tracks. ` + (run.hangs(k) ? `${fixed(run.sum(k, e => e.hangs), 2)} mm of their centre lines and ${range(lo, hi)} mm² of their area have no material within ${run.rho} mm below.` : "All of it is held up.");
+    return `${fixed(length, 1)} mm of tracks. ` + (run.hangs(k) ? `${fixed(run.sum(k, e => e.hangs), 2)} mm of their centre lines and ${range(lo, hi)} mm² of their area have no material within ${+run.rho.toFixed(4)} mm below.` : "All of it is held up.");
   }
   const n = run.numbers(k), m = run.marks(k), s = run.shapes(k);
   const places = s.unsupported.filter(c => areaOf([c]) > 0).length;

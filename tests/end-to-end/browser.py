@@ -128,8 +128,9 @@ class Browser:
         self.call("Input.dispatchKeyEvent", type="keyUp", **about)
 
     def settle(self):
-        """Waits until what was asked for is painted."""
-        self.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 30))))")
+        """Waits until what was asked for is painted, and the model in 3D is at rest."""
+        self.run("""new Promise(done => { const wait = () => page.models.some(m => m.moving) ? setTimeout(wait, 20)
+          : requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 30))); wait(); })""")
 
     def screenshot(self, file):
         self.settle()

@@ -97,7 +97,7 @@ class Pages(unittest.TestCase):
 
     def check_layer(self, k, report, shapes, run=0):
         layer, figures = report["layers"][k], self.figures("layer-figures", run)
-        for name, digits in {"support_length_mm": 3, "support_printed_length_mm": 3, "support_volume_mm3": 3, "shell_volume_mm3": 3, "trees": 0, "gaps": 0,
+        for name, digits in {"support_length_mm": 3, "support_printed_length_mm": 3, "support_volume_mm3": 3, "shell_volume_mm3": 3, "extruded_mm3": 3, "trees": 0, "gaps": 0,
                              "closed_gaps": 0, "patches": 0, "filament_mm": 3, "print_seconds": 1}.items():
             self.assertAlmostEqual(float(figures[name]), layer[name], delta=0.5000001 * 10 ** -digits, msg=f"{name} of layer {k}")
         valence = [0] * len(shapes[k]["vertices"])

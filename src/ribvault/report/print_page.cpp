@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <nlohmann/json.hpp>
 
 #include "ribvault/report/packed.hpp"
@@ -25,14 +26,16 @@ Json pieces(const std::vector<HangingPiece>& all) {
     return list;
 }
 
-/// Per feature of the layer: its index, the length of its centre lines in mm, and length times width times height in mm³.
+/// Per feature of the layer: its index, the length of its centre lines in mm, and length times width times height in mm³ (of dots:
+/// a disc's area times height).
 Json lengths(const GcodeLayer& layer) {
     std::map<int, std::array<double, 2>> sums;
     for (const GcodeTrack& t : layer.tracks) {
         const GcodePoint &a = layer.points[t.a], &b = layer.points[t.b];
         const double length = std::hypot(to_double(b.x) - to_double(a.x), to_double(b.y) - to_double(a.y));
         sums[t.feature][0] += length;
-        sums[t.feature][1] += length * static_cast<double>(t.width) * 1e-9 * static_cast<double>(layer.height) * 1e-9;
+        const double width = static_cast<double>(t.width) * 1e-9, height = static_cast<double>(layer.height) * 1e-9;
+        sums[t.feature][1] += (t.a == t.b ? std::numbers::pi / 4 * width : length) * width * height;
     }
     Json list = Json::array();
     for (const auto& [feature, sum] : sums) list.push_back({feature, rounded(sum[0]), rounded(sum[1])});
@@ -87,9 +90,12 @@ Json facts(const GcodePrint& print, const PrintReport& r) {
     const std::string name = r.input_path.substr(r.input_path.find_last_of("/\\") + 1);
     const std::string verdict = r.supported ? "Supported on all " + std::to_string(r.layer_count) + " layers."
                                             : "Hangs on " + std::to_string(r.layers_unsupported) + " of " + std::to_string(r.layer_count) + " layers.";
-    const std::string words = (r.flavour == "unknown" ? "" : r.flavour + ", ") + "ρ = " + fixed(r.support_radius_mm, 3) + " mm (" +
-                              r.support_radius_source + "); " + fixed(r.unsupported_mm.hi, 1) + " of " + fixed(r.length_mm, 0) + " mm and " +
-                              fixed(r.area_mm2.lo, 2) + " to " + fixed(r.area_mm2.hi, 2) + " mm² have no material within ρ below." + (r.cut.empty() ? "" : " The file is cut off: " + r.cut + ".");
+    const std::string rule = (r.flavour == "unknown" ? "" : r.flavour + ", ") + "ρ = " + fixed(r.support_radius_mm, 3) + " mm (" + r.support_radius_source + "); ";
+    const bool all = r.unsupported_mm.hi == 0 && r.area_mm2.hi == 0;
+    const std::string found = all ? "all " + fixed(r.length_mm, 0) + " mm of tracks have material within ρ below."
+                                  : fixed(r.unsupported_mm.hi, 1) + " of " + fixed(r.length_mm, 0) + " mm and " + fixed(r.area_mm2.lo, 2) + " to " +
+                                        fixed(r.area_mm2.hi, 2) + " mm² have no material within ρ below.";
+    const std::string words = rule + found + (r.cut.empty() ? "" : " The file is cut off: " + r.cut + ".");
     return {{"kind", "gcode"}, {"name", name}, {"supported", r.supported}, {"verdict", verdict}, {"words", words}, {"bridges", r.longest_bridge_mm.has_value()},
             {"rho", r.support_radius_mm}, {"box", box}, {"features", features}};
 }

@@ -34,13 +34,15 @@ constexpr Field header_fields[] = {
     {"/totals/material_mm3", Kind::number},    {"/totals/shell_volume_mm3", Kind::number},
     {"/totals/support_volume_mm3", Kind::number}, {"/totals/support_length_mm", Kind::number},
     {"/totals/support_printed_length_mm", Kind::number}, {"/totals/filament_mm", Kind::number},
+    {"/totals/extruded_mm3", Kind::number},
     {"/totals/print_seconds", Kind::number}};
 
 constexpr Field layer_fields[] = {
     {"/layer", Kind::natural},                 {"/z_mm", Kind::number},
     {"/shell_volume_mm3", Kind::number},       {"/support_length_mm", Kind::number},
     {"/support_printed_length_mm", Kind::number}, {"/support_volume_mm3", Kind::number},
-    {"/filament_mm", Kind::number},            {"/print_seconds", Kind::number},
+    {"/filament_mm", Kind::number},            {"/extruded_mm3", Kind::number},
+    {"/print_seconds", Kind::number},
     {"/trees", Kind::natural},                 {"/gaps", Kind::natural},
     {"/closed_gaps", Kind::natural},           {"/patches", Kind::natural},
     {"/verdict/supported", Kind::boolean},
