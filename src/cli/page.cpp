@@ -4,6 +4,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
+#include "cli/verify_rules.hpp"
 #include "ribvault/pipeline/make_page.hpp"
 
 namespace ribvault::cli {
@@ -13,7 +14,7 @@ namespace {
 struct Written {
     std::vector<std::string> runs;
     std::string page;
-    int threads = 0;
+    VerifyJob rules;
     bool quiet = false;
 };
 
@@ -21,11 +22,11 @@ int run(const Written& w) {
     PageJob job;
     job.runs.assign(w.runs.begin(), w.runs.end());
     job.page = w.page;
-    job.threads = w.threads;
+    job.rules = w.rules;
     Progress progress(w.quiet, "");
-    job.progress = [&](int done, int total) { progress(done, total); };
-    job.stop = interrupted;
-    job.warn = [&](const std::string& text) {
+    job.rules.progress = [&](int done, int total) { progress(done, total); };
+    job.rules.stop = interrupted;
+    job.rules.warn = [&](const std::string& text) {
         if (!w.quiet) std::fprintf(stderr, "warning: %s\n", text.c_str());
     };
     make_page(job);
@@ -39,9 +40,11 @@ int run(const Written& w) {
 std::function<int()> add_page(CLI::App& app) {
     const auto written = std::make_shared<Written>();
     CLI::App* command = app.add_subcommand("page", "One HTML file to look at a run, or at two side by side");
-    command->add_option("run", written->runs, "layers files of `generate --layers`, or G-code of any slicer (judged as by `verify`)")->required()->expected(1, 2);
+    command->get_formatter()->column_width(38);
+    command->add_option("run", written->runs, "layers files of `generate --layers`, or G-code of any slicer, judged as by `verify`")->required()->expected(1, 2);
     command->add_option("-o,--output", written->page, "page to write")->required()->type_name("FILE");
-    command->add_option("--threads", written->threads, "0: all processors")->check(CLI::Range(0, 1024));
+    add_rules(command, written->rules);
+    command->add_option("--threads", written->rules.threads, "0: all processors")->check(CLI::Range(0, 1024));
     command->add_flag("--quiet", written->quiet, "print errors only");
     return [written] { return run(*written); };
 }

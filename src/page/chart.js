@@ -33,7 +33,8 @@ class Chart {
     this.left = 46;
     this.canvas.addEventListener("pointerdown", e => { this.canvas.setPointerCapture(e.pointerId); at(e); });
     this.canvas.addEventListener("pointermove", e => { if (e.buttons) at(e); });
-    this.most = Math.max(1e-9, ...charts.map(c => Array.from({ length: c.parts[0].values.length }, (_, k) => sumOf(c, k)).reduce((a, b) => Math.max(a, b), 0)));
+    this.most = Math.max(0, ...charts.map(c => Array.from({ length: c.parts[0].values.length }, (_, k) => sumOf(c, k)).reduce((a, b) => Math.max(a, b), 0)));
+    if (this.most === 0) this.most = 1;
     this.describe();
   }
   describe() {

@@ -87,6 +87,7 @@ class LayerView {
     g.fillRect(0, 0, canvas.width, canvas.height);
     const s = this.scale, [ox, oy] = this.origin();
     this.place = c => c.setTransform(ratio * s, 0, 0, -ratio * s, ratio * ox, ratio * oy);
+    canvas.style.touchAction = this.frame.zoom > 1 ? "none" : "pan-y";  // a finger scrolls the page where there is nothing to move
     this.place(g);
     g.lineCap = g.lineJoin = "round";
     if (layer >= 0) run.kind === "layers" ? this.paintVault(g, colour) : this.paintPrint(g, colour);

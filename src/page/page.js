@@ -220,4 +220,7 @@ async function start() {
   await Promise.all(window.page.models.map(m => m.built));
   performance.mark("built");
 }
-start();
+start().catch(error => {
+  $("runs").append(made("p", { class: "verdict bad" }, `This page could not be shown: ${error.message}. It needs a browser of 2023 or later.`));
+  throw error;
+});

@@ -22,7 +22,7 @@ class PageError(Exception):
 class Browser:
     """One page. `console` collects errors and warnings of the console, uncaught exceptions and requests that leave the file."""
 
-    def __init__(self, program, width=1280, height=900):
+    def __init__(self, program, width=1280, height=900, flags=()):
         self.console, self.requests = [], []
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_child, self.out = os.pipe()
@@ -33,7 +33,7 @@ class Browser:
             os.dup2(taken[0], 3), os.dup2(taken[1], 4)
 
         command = [program, "--headless=new", "--remote-debugging-pipe", f"--user-data-dir={self.profile.name}", "--no-sandbox", "--no-first-run",
-                   "--disable-background-networking", "--disable-component-update", "--enable-unsafe-swiftshader", "--hide-scrollbars", "about:blank"]
+                   "--disable-background-networking", "--disable-component-update", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--hide-scrollbars", *flags, "about:blank"]
         self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, pass_fds=(3, 4, to_child, from_child),
                                         preexec_fn=descriptors, start_new_session=True)
         os.close(to_child), os.close(from_child)

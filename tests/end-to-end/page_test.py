@@ -238,6 +238,46 @@ class Pages(unittest.TestCase):
             self.assertAlmostEqual(float(self.figures("layer-figures", 1)["shell_volume_mm3"]), self.report["layers"][k]["shell_volume_mm3"], delta=0.001)
         self.at_end()
 
+    def test_a_run_without_supports(self):
+        generate(self.folder, CUBE, "--top-layers", "0", "--bottom-layers", "0", "--html", "open.html", "--report", "open.json")
+        self.open("open.html", "#layer=50")
+        self.assertEqual(self.figures("layer-figures")["trees"], "0")
+        self.assertIn("No supports on this layer", self.text("#said"))
+        self.browser.settle()
+        self.at_end()
+
+    def test_without_webgl_the_drawing_is_there(self):
+        with browser.Browser(FOUND, flags=["--disable-3d-apis"]) as plain:
+            plain.open(self.folder / "a.html", "#layer=97")
+            self.assertIn("no WebGL", plain.run("document.querySelector('.busy').textContent"))
+            self.assertIn("layer 97", plain.run("document.querySelector('canvas.drawing').getAttribute('aria-label')"))
+            plain.key("Home")
+            self.assertEqual(plain.run("document.getElementById('slider').value"), "0")
+
+    def test_a_large_print_opens_within_five_seconds_and_follows_the_slider(self):
+        """The cube's layers fifteen times over and fifteen times as large: 1500 layers, 300 mm. Bounds for any machine;
+        scripts/page-speed measures."""
+        header, *layers = map(json.loads, (self.folder / "a.layers").read_text().splitlines())
+        header["totals"]["layers"] = 15 * len(layers)
+        large = lambda value: [large(v) for v in value] if isinstance(value, list) else round(15 * value, 3)
+        for layer in layers:
+            for name in ("slice", "cavity", "vertices", "unsupported", "patch_tracks"):
+                layer[name] = large(layer[name])
+        with open(self.folder / "large.layers", "w") as out:
+            out.write(json.dumps(header) + "\n")
+            for k in range(15 * len(layers)):
+                out.write(json.dumps({**layers[k % len(layers)], "layer": k}) + "\n")
+        self.assertEqual(make_page(self.folder, "large.layers", "-o", "large.html").returncode, 0)
+        self.open("large.html")
+        self.assertLess(self.browser.run("performance.getEntriesByName('shown')[0].startTime"), 5000)
+        self.browser.settle()
+        start = self.browser.run("performance.now()")
+        for k in range(1499, 0, -50):
+            self.slide(k)
+            self.browser.run("new Promise(requestAnimationFrame)")
+        self.assertLess(self.browser.run("performance.now()") - start, 30 * 250)
+        self.at_end()
+
     def test_gcode_of_any_slicer(self):
         done = subprocess.run([PROGRAM, "verify", CORPUS / "verify/cantilever.gcode", "--html", "v.html", "--report", "v.json", "--quiet"], cwd=self.folder)
         self.assertEqual(done.returncode, 1)
@@ -253,6 +293,10 @@ class Pages(unittest.TestCase):
         self.assertEqual(make_page(self.folder, CORPUS / "prusa_slicer.gcode", CORPUS / "cura.gcode", "-o", "slicers.html").returncode, 0)
         self.open("slicers.html")
         self.browser.screenshot(SCREENSHOTS / "slicers.png")
+        rules = ["--support-radius", "10"]
+        self.assertEqual(make_page(self.folder, CORPUS / "verify/cantilever.gcode", "-o", "rules.html", *rules).returncode, 0)
+        self.open("rules.html")
+        self.assertIn("Supported on all 2 layers", self.text("header"))
         self.at_end()
 
 

@@ -4,7 +4,6 @@
 
 #include "ribvault/error.hpp"
 #include "ribvault/output_file.hpp"
-#include "ribvault/pipeline/verify_print.hpp"
 #include "ribvault/report/layers_file.hpp"
 #include "ribvault/report/print_page.hpp"
 #include "ribvault/report/run_page.hpp"
@@ -24,17 +23,16 @@ void append_layers(const PageJob& job, const std::filesystem::path& file, RunPag
     page.begin_run();
     LayersFile::Layer layer;
     while (layers.next(layer)) {
-        if (job.stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+        if (job.rules.stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
         page.add_layer(page_record(layer.numbers, packed_shapes(layer.shapes)));
     }
     page.end_run(page_facts(layers.header()));
 }
 
 void append_gcode(const PageJob& job, const std::filesystem::path& file, RunPage& page) {
-    VerifyJob verify;
+    VerifyJob verify = job.rules;
     verify.gcode = file;
-    verify.threads = job.threads;
-    verify.progress = job.progress, verify.warn = job.warn, verify.stop = job.stop;
+    verify.report.reset(), verify.svg.reset(), verify.html.reset();
     const JudgedPrint judged = judged_print(verify);
     append_print(page, judged.print, judged.report);
 }
@@ -49,7 +47,7 @@ void make_page(const PageJob& job) {
     for (const std::filesystem::path& run : job.runs)
         is_json(run) ? append_layers(job, run, page) : append_gcode(job, run, page);
     page.finish();
-    if (job.stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+    if (job.rules.stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
     file.commit();
 }
 
