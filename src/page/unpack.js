@@ -1,4 +1,3 @@
-"use strict";
 // The bytes of a run: records of two texts each (numbers as JSON, geometry), numbers as report/packed.hpp writes them.
 
 /** Bytes of a deflate stream (zlib format) in base64. */

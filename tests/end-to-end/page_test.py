@@ -8,10 +8,9 @@ import tempfile
 import unittest
 
 import browser
+from runs import CUBE, PROGRAM, generate, make_page
 
-PROGRAM = os.environ["RIBVAULT"]
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-CUBE = ROOT / "experiments/models/cube20.stl"
 CORPUS = ROOT / "tests/corpus/gcode"
 SCREENSHOTS = pathlib.Path(os.environ.get("SCREENSHOTS", "screenshots"))
 FOUND = browser.find()
@@ -38,15 +37,6 @@ DRAWN = """(canvas => { page.models.forEach(m => m.render());
   const d = g.getImageData(0, 0, 100, 100).data; let n = 0;
   for (let k = 4; k < d.length; k += 4) n += d[k] !== d[0] || d[k + 1] !== d[1] || d[k + 2] !== d[2];
   return n; })"""
-
-
-def generate(folder, *arguments):
-    done = subprocess.run([PROGRAM, "generate", *map(str, arguments), "--quiet"], cwd=folder, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-
-
-def make_page(folder, *arguments):
-    return subprocess.run([PROGRAM, "page", *map(str, arguments)], cwd=folder, capture_output=True, text=True)
 
 
 class Pages(unittest.TestCase):
@@ -300,60 +290,8 @@ class Pages(unittest.TestCase):
         self.at_end()
 
 
-class Files(unittest.TestCase):
-    """What needs no browser."""
-
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = pathlib.Path(scratch.name)
-
-    def test_the_same_bytes_from_the_run_and_from_its_layers_file_for_any_number_of_threads(self):
-        pages, files = set(), set()
-        for threads in (1, 2, 5):
-            generate(self.folder, CUBE, "--layers", "a.layers", "--html", "a.html", "--threads", threads)
-            self.assertEqual(make_page(self.folder, "a.layers", "-o", "b.html").returncode, 0)
-            pages |= {(self.folder / "a.html").read_bytes(), (self.folder / "b.html").read_bytes()}
-            files.add((self.folder / "a.layers").read_bytes())
-        self.assertEqual((len(pages), len(files)), (1, 1))
-
-    def refuse(self, code, fragment, *arguments):
-        done = make_page(self.folder, *arguments, "-o", "page.html")
-        self.assertEqual(done.returncode, code, done.stderr)
-        self.assertIn(fragment, done.stderr)
-        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
-        self.assertFalse((self.folder / "page.html").exists())
-
-    def test_files_that_are_not_whole_are_refused_by_name(self):
-        generate(self.folder, CUBE, "--layers", "a.layers", "--report", "a.json")
-        lines = (self.folder / "a.layers").read_text().splitlines()
-
-        def write(name, *changed):
-            (self.folder / name).write_text("\n".join(changed) + "\n")
-
-        write("old.layers", lines[0].replace("ribvault-layers/1", "ribvault-layers/0"), *lines[1:])
-        self.refuse(3, "old.layers: line 1 is of schema ribvault-layers/0; expected a layers file, schema ribvault-layers/1", "old.layers")
-        write("less.layers", *lines[:7], lines[7].replace('"trees":', '"threes":'), *lines[8:])
-        self.refuse(3, 'less.layers: line 8 has no "trees"', "less.layers")
-        write("cut.layers", *lines[:50])
-        self.refuse(3, "cut.layers is cut off: it ends after 49 of 100 layers", "cut.layers")
-        (self.folder / "half.layers").write_text("\n".join(lines)[:200000])
-        self.refuse(3, "half.layers: line", "half.layers")
-        self.refuse(3, "a.json", "a.json")
-        (self.folder / "rubbish").write_bytes(bytes(range(256)) * 10)
-        self.refuse(3, "rubbish", "rubbish")
-        (self.folder / "empty").write_text("")
-        self.refuse(3, "empty", "empty")
-        self.refuse(3, "none", "none")
-        self.refuse(3, "cut.layers", "a.layers", "cut.layers")
-        self.assertEqual(make_page(self.folder, "a.layers", "a.layers", "a.layers", "-o", "page.html").returncode, 2)
-        self.assertEqual(make_page(self.folder, "a.layers").returncode, 2)
-        self.assertEqual(make_page(self.folder, "a.layers", "-o", "no/such/page.html").returncode, 6)
-
-
 if __name__ == "__main__":
     if FOUND is None:
         print("skipped: no Chromium on this machine; scripts/setup installs it (package chromium), or name one with CHROMIUM=")
-        unittest.TextTestRunner(verbosity=2).run(unittest.defaultTestLoader.loadTestsFromTestCase(Files)).wasSuccessful() or sys.exit(1)
         sys.exit(77)
     unittest.main(verbosity=2)

@@ -149,6 +149,9 @@ TEST_CASE("a layers file that is not whole is refused by name") {
         CHECK_THAT(changed(2, without(good[2], field)), Contains("line 3 has no \""));
         CHECK_THAT(changed(2, with(good[2], field, "rubbish")), Contains("line 3 has no valid \""));
     }
+    CHECK_THAT(changed(2, with(good[2], "/verdict/internal", Json::object())), Contains("has no \"verdict.internal.area_mm2.0\""));
+    CHECK_THAT(changed(3, without(good[3], "/verdict/external/witness_mm")), Contains("has no \"verdict.external.witness_mm.0\""));
+    CHECK_THAT(changed(2, with(good[2], "/print/place_mm", "here")), Contains("\"print.place_mm.0\""));
     CHECK_THAT(changed(2, with(good[2], "/edges/0/1", 4)), Contains("there is no vertex 4"));
     CHECK_THAT(changed(2, with(good[2], "/roots/0", -1)), Contains("there is no vertex -1"));
     CHECK_THAT(changed(2, with(good[2], "/slice/0/1/0", 1e300)), Contains("\"slice\""));

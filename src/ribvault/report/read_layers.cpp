@@ -15,7 +15,7 @@ struct Wrong {
     std::string what;
 };
 
-enum class Kind { number, natural, boolean, text, list, object, object_or_null };
+enum class Kind { number, natural, boolean, text, list, object_or_null };
 
 struct Field {
     const char* pointer;
@@ -49,6 +49,9 @@ constexpr Field layer_fields[] = {
     {"/verdict/internal", Kind::object_or_null}, {"/verdict/external", Kind::object_or_null},
     {"/print/supported", Kind::boolean},       {"/print/unsupported_mm/1", Kind::number}};
 
+/// Of "internal" and "external", where they are no null.
+constexpr Field hole_fields[] = {{"/area_mm2/0", Kind::number}, {"/area_mm2/1", Kind::number}, {"/witness_mm/0", Kind::number}, {"/witness_mm/1", Kind::number}};
+
 std::string name_of(std::string pointer) {
     for (std::size_t k = 1; k < pointer.size(); ++k)
         if (pointer[k] == '/') pointer[k] = '.';
@@ -62,14 +65,13 @@ bool is(const Json& value, Kind kind) {
         case Kind::boolean: return value.is_boolean();
         case Kind::text: return value.is_string();
         case Kind::list: return value.is_array();
-        case Kind::object: return value.is_object();
         case Kind::object_or_null: return value.is_object() || value.is_null();
     }
     return false;
 }
 
 const char* described(Kind kind) {
-    static constexpr const char* words[] = {"a number", "a whole number", "true or false", "a text", "a list", "an object", "an object or null"};
+    static constexpr const char* words[] = {"a number", "a whole number", "true or false", "a text", "a list", "an object or null"};
     return words[static_cast<std::size_t>(kind)];
 }
 
@@ -79,6 +81,16 @@ const Json& need(const Json& object, const Field& field) {
     const Json& value = object[pointer];
     if (!is(value, field.kind)) throw Wrong{"has no valid " + name_of(field.pointer) + ": expected " + described(field.kind)};
     return value;
+}
+
+void check_numbers(const Json& layer) {
+    for (const Field& field : layer_fields) need(layer, field);
+    for (const std::string hole : {"/verdict/internal", "/verdict/external"})
+        for (const Field& field : hole_fields)
+            if (layer[Json::json_pointer(hole)].is_object()) need(layer, {(hole + field.pointer).c_str(), field.kind});
+    const char* place = "/print/place_mm";
+    if (!layer.contains(Json::json_pointer(place)) || layer[Json::json_pointer(place)].is_null()) return;
+    for (const char* k : {"/0", "/1"}) need(layer, {(std::string(place) + k).c_str(), Kind::number});
 }
 
 Unit lattice(const Json& value, const char* name) {
@@ -179,7 +191,7 @@ bool LayersFile::next(Layer& layer) {
                                                std::to_string(layer_count_) + " layers; write it again");
     try {
         Json object = parsed(line);
-        for (const Field& field : layer_fields) need(object, field);
+        check_numbers(object);
         if (object["layer"] != expected) throw Wrong{"has layer " + object["layer"].dump() + " where layer " + std::to_string(expected) + " should be"};
         layer.shapes = shapes(object);
         for (const char* name : shape_names) object.erase(name);
