@@ -102,14 +102,14 @@ class LayerView {
     const stroke = (path, c, width, alpha = 1) => { g.globalAlpha = alpha; g.strokeStyle = colour(c); g.lineWidth = width; g.stroke(path); g.globalAlpha = 1; };
     g.fillStyle = colour("shell"); g.fill(p.shell, "evenodd");
     stroke(p.shell, "edge", 0.8 * pixel);
-    stroke(p.tracks, "track", Math.max(run.nozzle, 2.2 * pixel));
+    g.globalAlpha = 0.45; g.fillStyle = colour("hang"); g.fill(p.unsupported); g.globalAlpha = 1;
+    stroke(p.tracks, "track", Math.max(run.nozzle, 2.2 * pixel), 0.9);
     stroke(p.patches, "patch", Math.max(run.nozzle, 2.5 * pixel), 0.8);
-    g.globalAlpha = 0.5; g.fillStyle = colour("hang"); g.fill(p.unsupported); g.globalAlpha = 1;
     stroke(p.unsupported, "hang", 1.5 * pixel);
     stroke(p.tracks, "line", Math.max(0.05, pixel));
     const marks = Object.values(run.marks(layer)).reduce((n, list) => n + list.length, 0);
     const apart = run.numbers(layer).support_length_mm / Math.max(1, marks);  // mm between marks on average
-    this.paintMarks(g, colour, Math.max(run.nozzle, Math.min(6 * pixel, 0.6 * apart)));
+    this.paintMarks(g, colour, Math.min(16 * pixel, Math.max(run.nozzle, Math.min(6 * pixel, 0.6 * apart))));
   }
   paintMarks(g, colour, w) {
     const { vertices: v } = this.run.shapes(this.layer), marks = this.run.marks(this.layer), at = i => [v[2 * i], v[2 * i + 1]];
@@ -159,9 +159,12 @@ class LayerView {
     const s = this.scale, y = this.canvas.clientHeight - 14;
     let bar = 10 ** Math.floor(Math.log10(90 / s));
     if (bar * s < 30) bar *= bar * s < 18 ? 5 : 2;
+    const words = +bar.toPrecision(3) + " mm";
+    g.font = "12px system-ui, sans-serif";
+    g.fillStyle = colour("paper"); g.fillRect(6, y - 10, bar * s + g.measureText(words).width + 18, 20);
     g.fillStyle = g.strokeStyle = colour("soft"); g.lineWidth = 2;
     g.beginPath(); g.moveTo(12, y); g.lineTo(12 + bar * s, y); g.stroke();
-    g.font = "12px system-ui, sans-serif"; g.fillText(+bar.toPrecision(3) + " mm", 18 + bar * s, y + 4);
+    g.fillText(words, 18 + bar * s, y + 4);
   }
 
   listen() {

@@ -39,6 +39,16 @@ DRAWN = """(canvas => { page.models.forEach(m => m.render());
   return n; })"""
 
 
+def contrast(a, b):
+    """Of two colours #rrggbb or #rgb, by WCAG 2.2."""
+    def light(colour):
+        digits = colour[1:] if len(colour) == 7 else "".join(2 * c for c in colour[1:])
+        parts = [int(digits[k:k + 2], 16) / 255 for k in (0, 2, 4)]
+        return sum(w * (v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4) for w, v in zip((0.2126, 0.7152, 0.0722), parts))
+    low, high = sorted((light(a), light(b)))
+    return (high + 0.05) / (low + 0.05)
+
+
 class Pages(unittest.TestCase):
     """One folder with runs of the cube, and one browser, for all tests."""
 
@@ -71,6 +81,9 @@ class Pages(unittest.TestCase):
 
     def at_end(self):
         self.assertEqual([text for text in self.browser.console if "GL Driver Message" not in text], [])
+
+    def colour(self, name):
+        return self.browser.run(f"colours()('{name}')")
 
     def text(self, selector):
         return self.browser.run(f"document.querySelector({json.dumps(selector)}).textContent")
@@ -183,6 +196,9 @@ class Pages(unittest.TestCase):
                     contrasts = self.browser.run(CONTRASTS)
                     self.assertGreater(len(contrasts), 40)
                     self.assertEqual([c for c in contrasts if c[1] < 4.5], [])
+                    paper = self.colour("paper")
+                    for mark in ("edge", "line", "root", "junction", "tip", "dot", "hang", "bridge", "patch", "second", "focus"):
+                        self.assertGreaterEqual(contrast(self.colour(mark), paper), 3, mark)
             self.at_end()
 
     def test_pictures_are_said_in_words(self):
