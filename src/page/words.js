@@ -18,7 +18,7 @@ function layerFigures(run, k) {
     ["support_printed_length_mm", "supports as printed, without gaps, mm", n.support_printed_length_mm, 3], ["trees", "trees", n.trees, 0],
     ["roots", "roots", m.roots.length, 0], ["junctions", "junctions", m.junctions.length, 0], ["tips", "tips", m.tips.length, 0],
     ["gaps", "gaps at junctions", n.gaps, 0], ["closed_gaps", "gaps closed for the print", n.closed_gaps, 0], ["patches", "patches", n.patches, 0],
-    ["new_area_mm2", "newly supported, mm²", run.newArea(k), 3], ["filament_mm", "filament, mm", n.filament_mm, 3], ["print_seconds", "print time, s", n.print_seconds, 1]];
+    ["new_area_mm2", "newly supported, at most, mm²", run.newArea(k), 3], ["filament_mm", "filament, mm", n.filament_mm, 3], ["print_seconds", "print time, s", n.print_seconds, 1]];
 }
 
 function runFigures(run) {
@@ -70,7 +70,7 @@ function layerWords(run, k) {
   const places = s.unsupported.filter(c => areaOf([c]) > 0).length;
   const supports = n.trees === 0 ? "No supports on this layer." : `${many(n.trees, "support tree")} with ${fixed(n.support_length_mm, 1)} mm: ${many(m.roots.length, "root")}, ` +
     `${many(m.junctions.length, "junction")}, ${many(m.tips.length, "tip")}${m.dots.length ? ", " + many(m.dots.length, "dot") : ""}.`;
-  const grown = places === 0 ? "Nothing new had to be held up." : `Newly supported for the layer above: ${many(places, "place")}, ${fixed(run.newArea(k), 2)} mm².`;
+  const grown = places === 0 ? "Nothing new had to be held up." : `Newly supported for the layer above: ${many(places, "place")}, at most ${fixed(run.newArea(k), 2)} mm².`;
   const proof = run.refuted(k) ? "Not proved: something inside has no material within ρ below." : k === 0 ? "The layer lies on the bed." : `Proved over layer ${k - 1}, as geometry and as printed.`;
   const out = n.verdict.external;
   return `${proof} Shell of ${fixed(n.shell_volume_mm3, 2)} mm³. ${supports} ${grown}` + (out ? ` Outside, ${range(out.area_mm2[0], out.area_mm2[1])} mm² hang over the layer below.` : "");

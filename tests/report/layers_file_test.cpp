@@ -122,6 +122,13 @@ TEST_CASE("shapes are rounded to the nearest micrometre, on both sides of zero")
     CHECK(shapes.slice == Region{{{0, 0}, {100, -100}, {100, -100}, {1234500, -1234600}}});
 }
 
+TEST_CASE("what was unsupported counts once where its contours overlap") {
+    const Region overlapping{{{0, 0}, {20000, 0}, {20000, 20000}, {0, 20000}}, {{10000, 0}, {30000, 0}, {30000, 20000}, {10000, 20000}}};
+    const LayerShapes shapes = shapes_of({}, {}, {}, overlapping, {});
+    CHECK(shapes.unsupported.size() == 1);
+    CHECK(signed_area(shapes.unsupported) == 30000.0 * 20000.0);
+}
+
 TEST_CASE("a layers file that is not whole is refused by name") {
     const std::vector<std::string> good = sample_lines();
     CHECK(complaint(good).empty());

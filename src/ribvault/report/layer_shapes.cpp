@@ -1,6 +1,7 @@
 #include "ribvault/report/layer_shapes.hpp"
 
 #include "ribvault/report/packed.hpp"
+#include "ribvault/slice/lattice_clip.hpp"
 
 namespace ribvault {
 namespace {
@@ -68,7 +69,8 @@ std::vector<std::uint32_t> roots(const LayerShapes& shapes) {
 
 LayerShapes shapes_of(const Slice& slice, const Region& cavity, const SupportForest& forest, const Region& unsupported,
                       const std::vector<Segment>& patches) {
-    LayerShapes shapes{to_micrometre(slice.rounded), to_micrometre(cavity), {}, {}, to_micrometre(unsupported), patches};
+    const Region once = unsupported.empty() ? Region() : clip(ClipperLib::ctUnion, unsupported, {});
+    LayerShapes shapes{to_micrometre(slice.rounded), to_micrometre(cavity), {}, {}, to_micrometre(once), patches};
     for (Segment& s : shapes.patches) s = {to_micrometre(s.a), to_micrometre(s.b)};
     for (auto [v, end] = vertices(forest); v != end; ++v) shapes.vertices.push_back({to_micrometre(forest[*v].at), forest[*v].root});
     for (auto [e, end] = edges(forest); e != end; ++e)

@@ -17,11 +17,13 @@ struct LayerShapes {
     Region cavity;                       ///< C_i; the shell B_i is slice without cavity
     std::vector<SupportVertex> vertices; ///< of S_i
     std::vector<std::array<std::uint32_t, 2>> edges;  ///< of S_i: indices into vertices
-    Region unsupported;                  ///< what of layer i + 1 had no support before S_i grew: newly supported here
+    /// What of layer i + 1 detection (Section 4.2) found: all that neither the shell nor the walls copied from above hold up. Of a
+    /// wall that is not held up along its whole length it is the whole track: more than needed, never less.
+    Region unsupported;
     std::vector<Segment> patches;        ///< short tracks that hold what the shell's own tracks leave open
 };
 
-/// Rounds to 1 µm.
+/// Rounds to 1 µm. `unsupported` may overlap itself; the result does not.
 LayerShapes shapes_of(const Slice& slice, const Region& cavity, const SupportForest& forest, const Region& unsupported,
                       const std::vector<Segment>& patches);
 
