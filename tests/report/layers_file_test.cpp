@@ -166,3 +166,22 @@ TEST_CASE("a layers file that is not whole is refused by name") {
     CHECK_THAT(complaint({}), Contains("is empty"));
     CHECK_THROWS_AS(LayersFile("no/such/file"), Error);
 }
+
+TEST_CASE("no value in any place of a layers file does more than have the file refused") {
+    const std::vector<std::string> good = sample_lines();
+    const Json values[] = {nullptr, true, -1, 1e300, "text", Json::array(), Json::object(), {{{1, 2}}}};
+    int refused = 0;
+    for (const std::size_t line : {std::size_t{0}, std::size_t{2}}) {
+        const Json flat = Json::parse(good[line]).flatten();
+        for (const auto& [pointer, old] : flat.items()) {
+            std::string up = pointer;  // the value and all that it is in
+            for (; !up.empty(); up.erase(up.rfind('/')))
+                for (const Json& value : values) {
+                    std::vector<std::string> lines = good;
+                    lines[line] = with(good[line], up, value);
+                    refused += complaint(lines).empty() ? 0 : 1;
+                }
+        }
+    }
+    CHECK(refused > 1000);
+}
