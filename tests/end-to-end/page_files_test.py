@@ -1,9 +1,12 @@
 """Layers files and run pages as files: the same bytes on every way, and what is not whole refused by name."""
 import pathlib
+import tarfile
 import tempfile
 import unittest
 
 from runs import CUBE, generate, make_page
+
+MESHES = pathlib.Path("/usr/share/doc/libcgal-dev/data.tar.gz")  # package libcgal-demo
 
 
 class Files(unittest.TestCase):
@@ -20,6 +23,15 @@ class Files(unittest.TestCase):
             pages |= {(self.folder / "a.html").read_bytes(), (self.folder / "b.html").read_bytes()}
             files.add((self.folder / "a.layers").read_bytes())
         self.assertEqual((len(pages), len(files)), (1, 1))
+
+    @unittest.skipUnless(MESHES.exists(), f"there is no {MESHES}")
+    def test_the_page_of_a_bunny_of_55_mm_is_below_10_mb(self):
+        with tarfile.open(MESHES) as meshes, open(self.folder / "bunny00.off", "wb") as out:
+            out.write(meshes.extractfile("data/meshes/bunny00.off").read())
+        generate(self.folder, "bunny00.off", "--height", "55", "--up", "y", "--html", "a.html")
+        size = (self.folder / "a.html").stat().st_size
+        self.assertGreater(size, 1e6)
+        self.assertLess(size, 10e6)
 
     def refuse(self, code, fragment, *arguments):
         done = make_page(self.folder, *arguments, "-o", "page.html")
