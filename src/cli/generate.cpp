@@ -46,6 +46,13 @@ void add_geometry(CLI::App* command, Written& w) {
     group->add_option("--top-layers", s.top_layers, "solid layers under every roof (default 1)");
     group->add_option("--bottom-layers", s.bottom_layers, "solid layers over every floor (default 1)");
     add_length(group, "--max-gap", s.max_gap, "close open contours over gaps up to this (default 0.05)");
+    const auto outside = command->add_option_group("External supports (Section 6)");
+    outside->add_option_function<std::string>(
+        "--support", [&s](const std::string& name) { s.support = name == "external" ? Support::external : name == "both" ? Support::both : Support::internal; },
+        "internal: hollow, supports in the cavities; external: solid, supports outside; both (default internal)")
+        ->check(CLI::IsMember({"internal", "external", "both"}))->type_name("NAME");
+    add_length(outside, "--support-gap", s.support_gap, "keep external supports this far off the object, in plane (default 0)");
+    add_length(outside, "--pillar-length", s.pillar_length, "track on every layer of a support that stands free (default 4)");
     const auto supports = command->add_option_group("Supports (Sections 4.1 to 4.3)");
     const auto radius = supports->add_option_function<std::string>(
         "--support-radius", [&w](const std::string& t) { w.support_radius = parse_length(t, "--support-radius"); },

@@ -27,6 +27,13 @@ enum class Gaps {
     none     ///< none
 };
 
+/// Where supports stand.
+enum class Support {
+    internal,  ///< in the cavities of a hollow object
+    external,  ///< outside a solid object (Section 6)
+    both       ///< in the cavities and outside
+};
+
 /// What decides the geometry. Lengths in lattice units (10 nm); symbols are the paper's.
 struct Settings {
     Unit layer_height = 20000;        ///< h
@@ -40,6 +47,10 @@ struct Settings {
     Propagation propagation = Propagation::erode_straighten;
     Order order = Order::distance;
     Gaps gaps = Gaps::proved;
+    Support support = Support::internal;
+    /// Removal gap g in plane: no external track's edge comes nearer to the object. With 0 external walls may be rooted on it.
+    Unit support_gap = 0;
+    Unit pillar_length = 400000;  ///< track that is left of a tree that stands free, on every layer down to what it stands on
     bool trim = false;  ///< new walls end as early as what they are there for allows (vault/trim_walls.hpp)
 
     Unit erosion_step = 20000;     ///< how much a free tip loses per layer (Section 4.1); at most ρ keeps equation (1)
@@ -56,6 +67,11 @@ struct Settings {
     Unit sampling_pitch = 10000;
     Unit slack = 100;            ///< the generator covers with radius r + ρ - slack, so that the proof seldom meets a tie
     Unit max_gap = 5000;         ///< open contours are closed over gaps up to this length
+
+    bool inside() const { return support != Support::external; }
+    /// With external supports, how far from O_i the object counts as held up: no track may come nearer than g + r.
+    Unit reach_of_object() const { return support_gap > 0 && support_gap + nozzle / 2 > support_radius ? support_gap + nozzle / 2 : support_radius; }
+    bool outside() const { return support != Support::internal; }
 
     /// Throws Error (usage) naming the first setting that cannot be, and what it may be.
     void check() const;

@@ -23,6 +23,7 @@
 #include "ribvault/report/layer_shapes.hpp"
 #include "ribvault/report/layer_svg.hpp"
 #include "ribvault/report/write_mesh.hpp"
+#include "ribvault/verify/gap_check.hpp"
 #include "ribvault/verify/verify_layer.hpp"
 
 namespace ribvault {
@@ -66,7 +67,7 @@ public:
 
         const auto finish = [&](const SweptLayer& layer, const LayerMaterial* below) { return std::shared_ptr<void>(finish_layer(slicer, layer, below)); };
         const auto collect = [&](const SweptLayer&, std::shared_ptr<void> output) { collect_layer(std::static_pointer_cast<LayerOutput>(output)); };
-        times_.merge(sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop));
+        times_.merge(sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop, support_frame(mesh_, report_.placement, job_.settings)));
         times_.erase("finish");  // its parts are counted one by one
         if (waiting_) join(nullptr);
         times_["proof"] = 1e-9 * static_cast<double>(proof_), times_["paths"] = 1e-9 * static_cast<double>(paths_);
@@ -130,13 +131,16 @@ private:
         r.verdict.layer = layer.layer;
         r.verdict.supported = true;  // layer 0 lies on the bed
         if (below) r.verdict = verify_layer(layer.layer, geometry(layer), geometry(*below), s);
+        if (s.support_gap > 0) check_gap(*layer.slice, swept.held.plan, r.verdict);
         if (swept.printed_above) output->print_above = judge_print(*swept.printed_above, *swept.held.printed, s);
         proof_ += (Time::now() - from).count();
 
         from = Time::now();
         const LayerPaths paths = order_paths(swept.held.plan, layer.slice->rounded, job_.tracks.alternate);
-        output->map = TravelMap(layer.slice->rounded, layer.cavity->region, paths);
-        const std::vector<ToolPath> beside = layer.layer == 0 ? skirt_and_brim(layer.slice->rounded, s, job_.tracks) : std::vector<ToolPath>();
+        Region air = layer.cavity->region;
+        if (layer.outside) air.insert(air.end(), layer.outside->region.begin(), layer.outside->region.end());
+        output->map = TravelMap(layer.slice->rounded, air, paths);
+        const std::vector<ToolPath> beside = layer.layer == 0 ? skirt_and_brim(layer.slice->rounded, s, job_.tracks, s.outside() ? *layer.tracks : std::vector<Segment>()) : std::vector<ToolPath>();
         output->text = gcode_layer(paths, output->map, s, job_.printer, beside);
         for (const std::vector<ToolPath>* all : {&beside, &paths.paths})
             for (const ToolPath& path : *all)
@@ -153,6 +157,8 @@ private:
         const auto of = [](TrackKind kind) { return static_cast<std::size_t>(kind); };
         r.support_printed_length_mm = p.length[of(TrackKind::support)];
         r.support_volume_mm3 = p.volume[of(TrackKind::support)];
+        r.external_support_printed_length_mm = p.length[of(TrackKind::external_support)];
+        r.external_support_volume_mm3 = p.volume[of(TrackKind::external_support)];
         r.gaps = paths.gaps;
         r.closed_gaps = swept.held.closed_gaps;
         r.patches = swept.held.patches;
@@ -187,6 +193,19 @@ private:
         }
         pictures_ += (Time::now() - from).count();
         return output;
+    }
+
+    /// What is extruded outside keeps g off the object, or the layer is not proved.
+    void check_gap(const Slice& slice, const LayerPlan& plan, LayerVerdict& verdict) const {
+        std::vector<Segment> outside;
+        for (const PlannedTrack& track : plan.tracks)
+            for (const ToolPath& path : track.paths)
+                if (path.kind == TrackKind::external_support)
+                    for (std::size_t k = path.points.size() == 1 ? 0 : 1; k < path.points.size(); ++k) outside.push_back({path.points[k > 0 ? k - 1 : 0], path.points[k]});
+        const std::optional<Segment> near = find_too_near(*slice.exact, outside, job_.settings.support_gap + job_.settings.nozzle / 2);
+        if (!near) return;
+        verdict.supported = false;
+        verdict.malformed = "the external support at (" + std::to_string(to_mm(near->a.x)) + ", " + std::to_string(to_mm(near->a.y)) + ") mm is nearer to the object than the gap";
     }
 
     static LayerGeometry geometry(const LayerMaterial& layer) { return {layer.slice->exact.get(), &layer.cavity->region, *layer.tracks}; }

@@ -18,15 +18,22 @@ __attribute__((format(printf, 2, 3))) void print(std::string& text, const char* 
 
 void describe_verdict(std::string& text, const RunReport& r) {
     const auto layers = static_cast<int>(r.layers.size());
+    const bool gap = r.settings.reach_of_object() > r.settings.support_radius;
     if (r.verdict.proved)
         print(text, "proved    equation (2) holds on all %d layers, decided exactly%s\n", layers,
               r.verdict.print_proved ? ",\n          for the geometry and for what is extruded" : "");
-    else
+    if (r.verdict.proved && gap)
+        print(text, "          across the removal gap: outside, all is within rho of a support or within %.5g mm (g + r) of the object\n",
+              to_mm(r.settings.reach_of_object()));
+    if (gap && !r.verdict.external_overhangs.empty())
+        print(text, "warning   on %zu layers there are crevices where the gap leaves no room for a support within rho; see \"external_overhangs\"\n",
+              r.verdict.external_overhangs.size());
+    if (!r.verdict.proved)
         print(text, "NOT PROVED  %zu of %d layers are not supported:\n", r.verdict.layers_refuted.size(), layers);
     int shown = 0;
     for (const LayerReport& layer : r.layers) {
         if (layer.verdict.supported || shown++ == 5) continue;
-        if (const auto& hole = layer.verdict.internal)
+        if (const auto& hole = layer.verdict.internal ? layer.verdict.internal : layer.verdict.external)
             print(text, "  layer %d: %.3g to %.3g mm2, among them (%.6f, %.6f) mm\n", layer.layer, hole->area_lo, hole->area_hi,
                   hole->witness[0], hole->witness[1]);
         else
@@ -40,7 +47,7 @@ void describe_verdict(std::string& text, const RunReport& r) {
             if (!layer.print.supported && named++ < 5)
                 print(text, "  layer %d, near (%.3f, %.3f) mm\n", layer.layer, layer.print.place[0], layer.print.place[1]);
     }
-    if (!r.verdict.external_overhangs.empty()) {
+    if (!r.verdict.external_overhangs.empty() && !r.settings.outside()) {
         double area = 0;
         const ExternalOverhang* worst = &r.verdict.external_overhangs.front();
         for (const ExternalOverhang& o : r.verdict.external_overhangs) {
@@ -48,7 +55,7 @@ void describe_verdict(std::string& text, const RunReport& r) {
             if (o.area_hi_mm2 > worst->area_hi_mm2) worst = &o;
         }
         print(text, "warning   the outside overhangs on %zu layers (at most %.3g mm2 in all, most on layer %d):\n"
-                    "          no internal support can hold that; see \"external_overhangs\" in the report\n",
+                    "          no internal support can hold that (--support both does); see \"external_overhangs\" in the report\n",
               r.verdict.external_overhangs.size(), area, worst->layer);
     }
 }
@@ -61,9 +68,11 @@ std::string summary(const RunReport& r, const Job& job) {
           r.input.triangles, r.input.size_mm[0], r.input.size_mm[1], r.input.size_mm[2], r.input.volume_mm3, r.input.components,
           r.input.components == 1 ? "" : "s", r.layers.size());
     describe_verdict(text, r);
-    print(text, "material  %.1f mm3: shell and covers %.1f, supports %.1f (%.0f mm of track); %.2f m of filament\n",
-          r.totals.material_mm3, r.totals.shell_volume_mm3, r.totals.support_volume_mm3, r.totals.support_printed_length_mm,
-          r.totals.filament_mm / 1000);
+    print(text, "material  %.1f mm3: shell and covers %.1f, supports %.1f (%.0f mm of track)", r.totals.material_mm3, r.totals.shell_volume_mm3,
+          r.totals.support_volume_mm3, r.totals.support_printed_length_mm);
+    if (r.settings.outside())
+        print(text, ", external supports %.1f (%.0f mm)", r.totals.external_support_volume_mm3, r.totals.external_support_printed_length_mm);
+    print(text, "; %.2f m of filament\n", r.totals.filament_mm / 1000);
     print(text, "print     about %.0f min; %ld travels, %.1f m, %ld retractions\n", r.totals.print_seconds / 60, r.totals.travels,
           r.totals.travel_mm / 1000, r.totals.retractions);
     if (r.totals.thin_places > 0)

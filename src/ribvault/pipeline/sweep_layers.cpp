@@ -4,11 +4,13 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 
 #include <atomic>
+#include <boost/graph/copy.hpp>
 #include <chrono>
 #include <deque>
 
 #include "ribvault/error.hpp"
 #include "ribvault/print/shell_paths.hpp"
+#include "ribvault/slice/outside.hpp"
 #include "ribvault/vault/next_layer.hpp"
 
 namespace ribvault {
@@ -48,7 +50,7 @@ struct Token {
     int layer = -1;  ///< the layer whose cavity this token computes; -1: none yet, or none any more
     std::vector<std::shared_ptr<const Region>> eroded;  ///< slices layer - k .. layer + k; empty where one is missing
     LayerMaterial material, above;
-    Region overhang;
+    Region overhang, overhang_outside;
     std::shared_ptr<SweptLayer> swept;                   ///< the layer above `layer`, complete now
     std::shared_ptr<const LayerMaterial> below_swept;
     std::shared_ptr<void> finished;
@@ -65,12 +67,24 @@ std::shared_ptr<const std::vector<Segment>> tracks_of(const SupportForest& fores
     return tracks;
 }
 
+/// Adds the supports outside to those in the cavity. Both grow from all of `above`: what stood in a cavity may stand outside below.
+void add_outside(LayerSupports& supports, SupportForest& above, const Cavity& outside, const Region& overhang, const Settings& settings) {
+    std::vector<char> ends;
+    for (auto [e, end] = edges(above); e != end; ++e) ends.push_back(above[*e].first_layer);
+    const LayerSupports more = next_layer(above, outside, overhang, settings);
+    std::size_t k = 0;
+    for (auto [e, end] = edges(above); e != end; ++e, ++k) above[*e].first_layer = above[*e].first_layer && ends[k];
+    boost::copy_graph(more.forest, supports.forest);
+    supports.unsupported.insert(supports.unsupported.end(), more.unsupported.begin(), more.unsupported.end());
+    supports.blocked += more.blocked;
+}
+
 }  // namespace
 
 StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const TrackSettings& track_settings, int threads,
                         const std::function<std::shared_ptr<void>(const SweptLayer&, const LayerMaterial* below)>& finish,
                         const std::function<void(const SweptLayer&, std::shared_ptr<void>)>& collect,
-                        const std::function<bool()>& stop) {
+                        const std::function<bool()>& stop, const Box& frame) {
     namespace tbb = oneapi::tbb;
     using tbb::filter_mode;
     const auto limit = threads > 0 ? static_cast<std::size_t>(threads)
@@ -112,18 +126,19 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
         for (int j = layer + up; complete && j >= layer - down; --j)
             token->eroded.push_back(window[static_cast<std::size_t>(window_top - j)].region);
         Eroded& own = window[static_cast<std::size_t>(window_top - layer)];
-        token->material = {layer, own.slice, nullptr, nullptr, std::move(own.closings), nullptr};
+        token->material = {layer, own.slice, nullptr, nullptr, nullptr, std::move(own.closings), nullptr};
         return token;
     };
     const auto hollow = [&](TokenPtr token) {
         if (token->layer < 0) return token;
         cavities.measure([&] {
             Region region;
-            if (!token->eroded.empty()) {
+            if (!token->eroded.empty() && settings.inside()) {
                 region = *token->eroded.front();
                 for (std::size_t k = 1; k < token->eroded.size(); ++k) region = intersect(region, *token->eroded[k]);
             }
             token->material.cavity = std::make_shared<const Cavity>(make_cavity(token->layer, std::move(region), settings));
+            if (settings.outside()) token->material.outside = std::make_shared<const Cavity>(make_outside(*token->material.slice, frame, settings));
         });
         return token;
     };
@@ -146,6 +161,8 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
             overhangs.measure([&] {
                 token->overhang = overhang_over_cavity(*token->material.cavity, *token->above.slice,
                                                        *token->above.cavity, settings);
+                if (settings.outside())
+                    token->overhang_outside = overhang_outside(*token->material.outside, *token->above.outside, *token->above.cavity, settings);
             });
         return token;
     };
@@ -154,7 +171,9 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
         sweeping.measure([&] {
             if (token->layer >= 0) {
                 SupportForest none;
-                LayerSupports supports = next_layer(previous ? previous->forest : none, *token->material.cavity, token->overhang, settings);
+                SupportForest& forest = previous ? previous->forest : none;
+                LayerSupports supports = next_layer(forest, *token->material.cavity, token->overhang, settings);
+                if (settings.outside()) add_outside(supports, forest, *token->material.outside, token->overhang_outside, settings);
                 token->material.tracks = tracks_of(supports.forest);
                 token->swept = std::move(previous);
                 token->below_swept = std::make_shared<const LayerMaterial>(token->material);
@@ -172,7 +191,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
         if (!token->swept) return token;
         holding.measure([&] {
             const LayerMaterial& material = token->swept->material;
-            token->swept->held = hold_print(std::move(*material.shell), token->swept->forest, printed_above.get(), settings);
+            token->swept->held = hold_print(std::move(*material.shell), token->swept->forest, printed_above.get(), settings, material.outside.get());
             token->swept->printed_above = std::move(printed_above);
             printed_above = token->swept->held.printed;
         });

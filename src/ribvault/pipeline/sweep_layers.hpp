@@ -21,6 +21,7 @@ struct LayerMaterial {
     int layer = 0;
     std::shared_ptr<const Slice> slice;               ///< O_i
     std::shared_ptr<const Cavity> cavity;             ///< C_i
+    std::shared_ptr<const Cavity> outside;            ///< where external supports may stand; nullptr: nowhere
     std::shared_ptr<const std::vector<Segment>> tracks;  ///< S_i as segments; dots as segments of no length
     std::vector<GapClosing> closings;
     std::shared_ptr<LayerPlan> shell;  ///< perimeters and covers; taken by hold_print
@@ -44,10 +45,12 @@ using StageTimes = std::map<std::string, double>;
 /// to bottom, one at a time. At most a window of layers is alive at any time, whatever their number. The result does not
 /// depend on `threads` (0: all).
 ///
+/// `frame`: a box that the object does not reach, within which external supports stand; needed when settings.outside().
+///
 /// Throws what its parts throw, and Error (interrupted) soon after `stop()` returned true.
 StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const TrackSettings& track_settings, int threads,
                         const std::function<std::shared_ptr<void>(const SweptLayer&, const LayerMaterial* below)>& finish,
                         const std::function<void(const SweptLayer&, std::shared_ptr<void>)>& collect,
-                        const std::function<bool()>& stop);
+                        const std::function<bool()>& stop, const Box& frame = {});
 
 }  // namespace ribvault

@@ -57,10 +57,19 @@ double distance(const Segment& s, const Segment& t) {
     return std::sqrt(least);
 }
 
+/// With a removal gap the object's tracks hold up what is within it: they count as so much wider (Settings::reach_of_object).
+PrintedLayer held_outside(PrintedLayer below, const Settings& settings) {
+    const Rational wider = 2 * exact_mm(settings.reach_of_object() - settings.support_radius);
+    if (!settings.outside() || wider == 0) return below;
+    for (PrintedTrack& t : below.tracks)
+        if (t.feature != static_cast<int>(TrackKind::external_support)) t.width += wider;
+    return below;
+}
+
 class Holder {
 public:
-    Holder(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings)
-        : shell_(std::move(shell)), forest_(forest), above_(above), settings_(settings), rho_(exact_mm(settings.support_radius)) {
+    Holder(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Cavity* beside, const Settings& settings)
+        : shell_(std::move(shell)), forest_(forest), above_(above), settings_(settings), rho_(exact_mm(settings.support_radius)), beside_(beside) {
         if (settings.gaps == Gaps::none)
             for (auto [e, end] = edges(forest_); e != end; ++e) forest_[*e].to_junction = true;
     }
@@ -68,7 +77,7 @@ public:
     HeldLayer run() {
         lay_tracks();
         if (!above_) return std::move(held_);
-        outside_ = stretches_outside(*above_, *held_.printed);  // the outline stays the same
+        if (!settings_.outside()) outside_ = stretches_outside(*above_, *held_.printed);  // the outline stays the same
         std::vector<std::size_t> all(above_->tracks.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
         std::vector<OpenStretch> open = look(all);
@@ -89,8 +98,8 @@ private:
     void lay_tracks() {
         held_.plan = shell_;
         append_support_paths(forest_, settings_, held_.plan);
-        for (const Segment& s : patches_) {
-            ToolPath path{TrackKind::support, settings_.nozzle, false, {s.a}};
+        for (const auto& [s, kind] : patches_) {
+            ToolPath path{kind, settings_.nozzle, false, {s.a}};
             if (s.b != s.a) path.points.push_back(s.b);
             held_.plan.tracks.push_back({{std::move(path)}, Entry::either_end, no_stop});
         }
@@ -102,7 +111,7 @@ private:
     std::vector<OpenStretch> look(const std::vector<std::size_t>& which) {
         PrintedOptions options;
         options.regions = false, options.stretches = true;
-        PrintedLayer upper, below = *held_.printed;
+        PrintedLayer upper, below = held_outside(*held_.printed, settings_);
         for (const std::size_t k : which) upper.tracks.push_back(above_->tracks[k]);
         below.tracks.insert(below.tracks.end(), outside_.begin(), outside_.end());
         PrintedVerdict inside = verify_printed(upper, below, rho_, options);
@@ -203,7 +212,8 @@ private:
         const std::size_t before = patches_.size();
         for (const OpenStretch& stretch : open) {
             const Segment hanging = place_of(above_->tracks[stretch.track], stretch);
-            const bool held = std::any_of(patches_.begin() + static_cast<std::ptrdiff_t>(before), patches_.end(), [&](const Segment& p) {
+            const bool held = std::any_of(patches_.begin() + static_cast<std::ptrdiff_t>(before), patches_.end(), [&](const Patch& patch) {
+                const Segment& p = patch.segment;
                 return compare_distance(hanging.a, p, step) <= 0 && compare_distance(hanging.b, p, step) <= 0;
             });
             if (held) continue;
@@ -225,17 +235,52 @@ private:
                     s = {move(s.a), move(s.b)};
                 }
             }
-            if (outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) {
+            TrackKind kind = TrackKind::support;
+            if ((outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) && may_stand_outside(s)) {
+                kind = TrackKind::external_support;
+            } else if (beside_ && patch_object(hanging)) {
+                continue;
+            } else if (outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) {
                 const Segment whole = place_of(above_->tracks[stretch.track], stretch);
                 const Point middle{(whole.a.x + whole.b.x) / 2, (whole.a.y + whole.b.y) / 2};
                 const Point inside = outline.locate(whole.a) != Side::outside ? whole.a : outline.locate(whole.b) != Side::outside ? whole.b : middle;
                 if (outline.locate(inside) == Side::outside) continue;
                 s = {inside, inside};
             }
-            patches_.push_back(s);
+            patches_.push_back({s, kind});
             ++held_.patches;
             held_.patch_length += round_to_lattice(length(s));
         }
+    }
+
+    /// With a removal gap only where walls may.
+    bool may_stand_outside(const Segment& s) const {
+        if (!beside_ || !beside_->walls) return beside_ != nullptr;
+        const std::vector<Segment> edges = edges_of(*beside_->walls);
+        if (std::any_of(edges.begin(), edges.end(), [&](const Segment& e) { return segments_touch(e, s); })) return false;
+        return PointLocation(edges, units_per_mm).locate(s.a) == Side::inside;
+    }
+
+    /// Within a removal gap patches are the object's: where its slice is too thin to be printed, they are printed, in pieces short
+    /// enough to follow its outline. Says no when the stretch is not over such a place.
+    bool patch_object(const Segment& hanging) {
+        if (!beside_->walls) return false;
+        std::vector<Segment> outline = edges_of(beside_->region);
+        const NearestSegment near(outline);
+        const PointLocation air(std::move(outline), units_per_mm);
+        const auto pieces = static_cast<std::size_t>(length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
+        const std::size_t before = patches_.size();
+        std::vector<Point> at;
+        for (std::size_t k = 0; k <= pieces; ++k) {
+            const double t = static_cast<double>(k) / static_cast<double>(pieces);
+            const Point d = hanging.b - hanging.a, p = hanging.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))};
+            at.push_back(air.locate(p) == Side::inside ? nearest_point(p, near.segments()[near.nearest(p).index]) : p);
+            if (length(at.back() - p) > static_cast<double>(settings_.reach_of_object())) return patches_.resize(before), false;
+            if (k > 0) patches_.push_back({{at[k - 1], at[k]}, TrackKind::support});
+        }
+        held_.patches += static_cast<int>(pieces);
+        for (std::size_t k = before; k < patches_.size(); ++k) held_.patch_length += round_to_lattice(length(patches_[k].segment));
+        return true;
     }
 
     LayerPlan shell_;
@@ -244,7 +289,12 @@ private:
     const Settings& settings_;
     Rational rho_;
     HeldLayer held_;
-    std::vector<Segment> patches_;
+    struct Patch {
+        Segment segment;
+        TrackKind kind;
+    };
+    const Cavity* beside_;
+    std::vector<Patch> patches_;
     std::vector<Point> tried_;
     std::vector<PrintedTrack> outside_;
 };
@@ -257,16 +307,16 @@ std::array<double, 2> sum(const PrintedVerdict& verdict) {
 
 }  // namespace
 
-HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings) {
-    return Holder(std::move(shell), forest, above, settings).run();
+HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings, const Cavity* outside) {
+    return Holder(std::move(shell), forest, above, outside, settings).run();
 }
 
 PrintVerdict judge_print(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings) {
     const Rational rho = exact_mm(settings.support_radius);
     PrintedOptions options;
     options.regions = false, options.stretches = true;
-    const std::vector<PrintedTrack> outside = stretches_outside(above, below);
-    PrintedLayer held = below;
+    const std::vector<PrintedTrack> outside = settings.outside() ? std::vector<PrintedTrack>() : stretches_outside(above, below);
+    PrintedLayer held = held_outside(below, settings);
     held.tracks.insert(held.tracks.end(), outside.begin(), outside.end());
     const PrintedVerdict inside = verify_printed(above, held, rho, options);
     PrintVerdict verdict;
@@ -277,6 +327,12 @@ PrintVerdict judge_print(const PrintedLayer& above, const PrintedLayer& below, c
         const OpenStretch& first = inside.stretches.front();
         const Segment place = place_of(above.tracks[first.track], first);
         verdict.place = {to_mm((place.a.x + place.b.x) / 2), to_mm((place.a.y + place.b.y) / 2)};
+    }
+    if (settings.reach_of_object() > settings.support_radius) {
+        options.areas = options.stretches = false;
+        const PrintedVerdict strictly = verify_printed(above, below, rho, options);
+        verdict.external_mm = sum(strictly);
+        verdict.stages += strictly.stages;
     }
     if (outside.empty()) return verdict;
     PrintedLayer upper;

@@ -7,6 +7,7 @@
 
 #include "ribvault/print/layer_plan.hpp"
 #include "ribvault/settings.hpp"
+#include "ribvault/slice/cavity.hpp"
 #include "ribvault/vault/support_forest.hpp"
 #include "ribvault/verify/printed_layer.hpp"
 #include "ribvault/verify/verdict.hpp"
@@ -34,11 +35,16 @@ struct HeldLayer {
 /// tracks of the shell leave a place open that B_i has), patches follow: what hangs, one layer lower, each end moved by up to
 /// ρ towards material, so that what the patches need below them shrinks to nothing like a wall's tip does.
 /// Patches lie inside the outline. Deterministic.
+///
+/// With external supports (settings.outside()) all of `above` counts, inside the outline or not, and patches may lie
+/// outside it, where `outside` (slice/outside.hpp) lets walls stand.
 /// What hold_print believes to be mended is proved by nobody yet: see judge_print.
-HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings);
+HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings,
+                     const Cavity* outside = nullptr);
 
 /// Equation (2) for the print of a layer (`above`) over that of the layer below it, decided exactly and for all of it, whatever
-/// came before.
+/// came before. With external supports all of it must be held up, and nothing is told apart as external; with a removal gap
+/// the object's tracks hold up what is within settings.reach_of_object() of them, and external_mm is what is farther than ρ.
 PrintVerdict judge_print(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings);
 
 }  // namespace ribvault

@@ -42,10 +42,10 @@ std::optional<Point> free_seam(const LayerPlan& plan, const IslandTracks& island
 
 std::vector<IslandTracks> sort_by_island(const LayerPlan& plan, const Region& outline) {
     const Islands islands(outline);
-    std::vector<IslandTracks> all(islands.size());
+    std::vector<IslandTracks> all(islands.size() + 1);  // the last: external supports
     for (std::size_t t = 0; t < plan.tracks.size(); ++t) {
         const PlannedTrack& track = plan.tracks[t];
-        IslandTracks& island = all[islands.of(first_point(track))];
+        IslandTracks& island = track.paths.front().kind == TrackKind::external_support ? all.back() : all[islands.of(first_point(track))];
         island.of[static_cast<std::size_t>(stage_of(track.paths.front().kind))].push_back(t);
         island.empty = false;
     }

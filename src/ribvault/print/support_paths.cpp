@@ -142,6 +142,8 @@ void set_gaps_along(RootedForest& f, const std::vector<Vertex>& vertices, double
     if (printed && gap <= 0) f.gap[vertices.front()] = width;
 }
 
+TrackKind kind_of(const SupportVertex& root) { return root.outside ? TrackKind::external_support : TrackKind::support; }
+
 void append_tree(RootedForest& f, Vertex root, LayerPlan& plan) {
     std::vector<Branch> left;
     std::vector<Vertex> children, vertices;
@@ -173,7 +175,7 @@ void append_tree(RootedForest& f, Vertex root, LayerPlan& plan) {
         if (above == no_stop) f.printed_by[branch.junction] = own;
         const bool lies_on_walls = std::none_of(vertices.begin() + 1, vertices.end(), [&](Vertex v) { return f.first_layer[v]; });
         const Entry entry = lies_on_walls ? Entry::either_end : Entry::fixed;
-        plan.tracks.push_back({{{TrackKind::support, f.width, false, std::move(points)}}, entry, above});
+        plan.tracks.push_back({{{kind_of(f.forest[root]), f.width, false, std::move(points)}}, entry, above});
     }
 }
 
@@ -185,7 +187,7 @@ void append_support_paths(const SupportForest& forest, const Settings& settings,
         if (f.seen[v] || !forest[v].root) continue;
         hang_from_root(f, v, plan.layer);
         if (out_degree(v, forest) == 0)
-            plan.tracks.push_back({{{TrackKind::support, settings.nozzle, false, {f.at(v)}}}, Entry::fixed, no_stop});
+            plan.tracks.push_back({{{kind_of(forest[v]), settings.nozzle, false, {f.at(v)}}}, Entry::fixed, no_stop});
         else
             append_tree(f, v, plan);
     }

@@ -13,9 +13,12 @@ enum class TrackKind {
     inner_perimeter,
     cover,
     support,
+    external_support,
     thin_wall,  ///< a part of the slice or of the shell narrower than one track, as a track of its own width
     skirt       ///< skirt and brim: beside the object, never among the paths of a layer
 };
+
+inline bool is_support(TrackKind kind) { return kind == TrackKind::support || kind == TrackKind::external_support; }
 
 /// One continuous extrusion: centre line on the lattice, material is within width / 2 of it. A single point is a dot, a
 /// disc extruded in place.

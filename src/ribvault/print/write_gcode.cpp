@@ -15,6 +15,7 @@ std::string_view type_name(TrackKind kind) {
         case TrackKind::cover: return "Solid infill";
         case TrackKind::thin_wall: return "Gap fill";
         case TrackKind::skirt: return "Skirt/Brim";
+        case TrackKind::external_support: return "Support material";
         case TrackKind::support: break;
     }
     return "Internal infill";
@@ -141,7 +142,7 @@ bool must_retract(const Travel& way, TrackEnd from, TrackEnd to, const PrinterSe
 
 double speed_of(const ToolPath& path, int layer, const PrinterSettings& printer) {
     if (layer == 0) return printer.first_layer_speed;
-    return path.kind == TrackKind::support ? printer.support_speed : printer.print_speed;
+    return is_support(path.kind) ? printer.support_speed : printer.print_speed;
 }
 
 Unit height_of(int layer, const Settings& settings) { return layer == 0 ? settings.first_layer_height : settings.layer_height; }
@@ -181,7 +182,7 @@ LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Setti
     for (const ToolPath& path : layer.paths) points += path.points.size() + 2;
     writer.text.reserve(128 + 40 * points);
     const PerimeterRows perimeters(layer, round_to_lattice(printer.surplus_clearance * units_per_mm));
-    const auto with_surplus = [&](const ToolPath& path) { return path.kind == TrackKind::support && !perimeters.near(path.points.front()); };
+    const auto with_surplus = [&](const ToolPath& path) { return is_support(path.kind) && !perimeters.near(path.points.front()); };
     const ToolPath* previous = nullptr;
     const auto print = [&](const ToolPath& path) {
         const TrackEnd start{path.points.front(), path.width};

@@ -11,7 +11,7 @@
 
 namespace ribvault {
 
-inline constexpr std::size_t track_kinds = 6;  ///< how many values TrackKind has
+inline constexpr std::size_t track_kinds = 7;  ///< how many values TrackKind has
 
 /// What a piece of G-code extrudes and moves. Millimetres of track, mm³, millimetres of filament.
 struct PrintStatistics {
@@ -47,7 +47,8 @@ struct LayerText {
 /// Height of the top of a layer over the bed: layer 0 is `first_layer_height` high, all others `layer_height`.
 Unit top_of_layer(int layer, const Settings& settings);
 
-/// One layer: for every path `;TYPE:`, `;WIDTH:` (PrusaSlicer's names; supports are "Internal infill", thin walls "Gap
+/// One layer: for every path `;TYPE:`, `;WIDTH:` (PrusaSlicer's names; internal supports are "Internal infill", external ones "Support
+/// material", thin walls "Gap
 /// fill"), a travel, then the track. `beside`: skirt and brim, printed first.
 ///
 /// A travel goes as `map` says, and retracts when it leaves the island or when more of it than `retract_over` is over open

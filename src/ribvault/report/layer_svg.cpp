@@ -141,6 +141,8 @@ LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportF
     d.z_mm = slice.layer == 0 ? to_mm(settings.first_layer_height) / 2
                               : to_mm(settings.first_layer_height) + (slice.layer - 0.5) * to_mm(settings.layer_height);
     d.box = bounding_box(slice.rounded);
+    for (auto [v, end] = vertices(forest); v != end; ++v)
+        if (forest[*v].outside) d.box.add(forest[*v].at);
     for (auto [e, end] = edges(forest); e != end; ++e)
         d.support_length_mm += length(forest[target(*e, forest)].at - forest[source(*e, forest)].at) / units_per_mm;
 

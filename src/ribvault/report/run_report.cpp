@@ -14,6 +14,8 @@ void sum_up(RunReport& report) {
     for (const LayerReport& layer : report.layers) {
         t.shell_volume_mm3 += layer.shell_volume_mm3;
         t.support_volume_mm3 += layer.support_volume_mm3;
+        t.external_support_volume_mm3 += layer.external_support_volume_mm3;
+        t.external_support_printed_length_mm += layer.external_support_printed_length_mm;
         t.support_length_mm += layer.support_length_mm;
         t.support_printed_length_mm += layer.support_printed_length_mm;
         t.perimeter_length_mm += layer.perimeter_length_mm;
@@ -50,7 +52,7 @@ void sum_up(RunReport& report) {
         }
         v.print_stages += layer.print.stages;
     }
-    t.material_mm3 = t.shell_volume_mm3 + t.support_volume_mm3;
+    t.material_mm3 = t.shell_volume_mm3 + t.support_volume_mm3 + t.external_support_volume_mm3;
     v.proved = !report.layers.empty() && v.layers_refuted.empty();
     v.print_proved = !report.layers.empty() && v.print_layers_refuted.empty();
 }

@@ -21,7 +21,9 @@ struct LayerReport {
     double shell_volume_mm3 = 0;           ///< its area times the layer's height
     double support_length_mm = 0;          ///< centre lines of S_i, through their junctions
     double support_printed_length_mm = 0;  ///< the same without the gaps of Section 4.4
-    double support_volume_mm3 = 0;         ///< printed length times d times the layer's height, and dots
+    double support_volume_mm3 = 0;         ///< of internal supports: printed length times d times the layer's height, and dots
+    double external_support_printed_length_mm = 0;  ///< of external supports alone
+    double external_support_volume_mm3 = 0;
     int gaps = 0;                          ///< branches that stop short of their junction
     double perimeter_length_mm = 0;
     double cover_length_mm = 0;
@@ -51,6 +53,8 @@ struct LayerReport {
 struct RunTotals {
     double shell_volume_mm3 = 0;
     double support_volume_mm3 = 0;
+    double external_support_volume_mm3 = 0;
+    double external_support_printed_length_mm = 0;
     double material_mm3 = 0;  ///< shell and supports
     double support_length_mm = 0;
     double support_printed_length_mm = 0;

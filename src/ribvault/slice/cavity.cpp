@@ -80,10 +80,16 @@ Region intersect(const Region& a, const Region& b) {
     return clip(ClipperLib::ctIntersection, a, b);
 }
 
-Cavity make_cavity(int layer, Region region, const Settings& s) {
+Region uncross(Region region) {
     // Where contours cross by a rounding, a region pulled in by a few units has them apart.
     for (double by = 2; contours_cross(region); by *= 2) region = offset(region, -by);
-    Cavity cavity{layer, std::move(region), {}, {}};
+    return region;
+}
+
+Cavity make_cavity(int layer, Region region, const Settings& s) {
+    region = uncross(std::move(region));
+    Cavity cavity;
+    cavity.layer = layer, cavity.region = std::move(region);
     if (cavity.region.empty()) return cavity;
     cavity.inner = offset(cavity.region, -rounding);
     cavity.deep = offset(cavity.region, -static_cast<double>(s.support_radius - s.slack), ClipperLib::jtRound,
@@ -98,8 +104,12 @@ Region overhang_over_cavity(const Cavity& cavity, const Slice& slice_above, cons
     if (s.top_layers == 0) {
         // Without covers the cavity may reach beyond the slice above; what is not printed needs no support.
         hanging = intersect(hanging, offset(slice_above.rounded, rounding));
-        if (hanging.empty()) return {};
     }
+    return without_ties(hanging, cavity, above, s);
+}
+
+Region without_ties(const Region& hanging, const Cavity& cavity, const Cavity& above, const Settings& s) {
+    if (hanging.empty()) return {};
     NearestSegment shell, edge_above;
     Region kept;
     for (Region& piece : connected_pieces(hanging)) {

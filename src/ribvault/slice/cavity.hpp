@@ -1,6 +1,8 @@
 // C_i, the empty inside of a slice, and what of it the shell cannot hold up (MODEL: sets).
 #pragma once
 
+#include <optional>
+
 #include "ribvault/settings.hpp"
 #include "ribvault/slice/slice.hpp"
 
@@ -24,9 +26,17 @@ struct Cavity {
     Region deep;
     /// C_i without 30 nm along its boundary: cracks between its contours stay open under Clipper's rounding.
     Region inner;
+    bool outside = false;  ///< not C_i but what lies outside O_i within a frame (slice/outside.hpp)
+    std::optional<Region> walls;  ///< where centre lines of walls may run, when that is not all of `region`
 };
-/// Contours that cross by a rounding are pulled in by a few lattice units until they do not.
+/// The region, pulled in by a few lattice units where its contours cross by a rounding until they do not.
+Region uncross(Region region);
+/// Crossing contours are uncrossed.
 Cavity make_cavity(int layer, Region region, const Settings& settings);
+
+/// The pieces of `hanging` (inside cavity.deep, outside above.inner) that are there not only because `deep` is taken with the
+/// slack, each grown by what rounding may have taken away.
+Region without_ties(const Region& hanging, const Cavity& cavity, const Cavity& above, const Settings& settings);
 
 /// Where layer i + 1's shell hangs over cavity i farther than ρ from B_i: a superset of (B_{i+1} ∩ C_i) \ (B_i)^{ρ↑} that
 /// exceeds it by less than twice the slack. Slivers thinner than the slack

@@ -1,4 +1,4 @@
-// The boundary of C_i prepared for the sweep: nearest edge, point location, and where a track may be rooted.
+// The boundary of C_i, or of what lies outside O_i, prepared for the sweep: nearest edge, point location, and where a track may be rooted.
 #pragma once
 
 #include "ribvault/exact/nearest_segment.hpp"
@@ -8,10 +8,16 @@
 namespace ribvault {
 
 struct CavityBoundary {
-    NearestSegment edges;
+    NearestSegment edges;    ///< which walls must not cross; the frame of an outside is not among them
     PointLocation location;
+    bool outside = false;    ///< trees may stand free (vault/free_trees.hpp)
+    bool rooted = true;      ///< the edges are the shell's: walls may be rooted there
+    int layers_below = 0;    ///< layer numbers count from the bed
+    /// Is there a shell on which a wall can be rooted?
+    bool has_shell() const { return rooted && !edges.empty(); }
 };
 CavityBoundary prepare_boundary(const Region& cavity);
+CavityBoundary prepare_boundary(const Cavity& cavity);
 
 /// How far (lattice units) a root may lie from the boundary of C_i.
 inline constexpr Unit root_tolerance = 3;

@@ -51,7 +51,11 @@ public:
         for (std::size_t v = 0; v < inside_.size(); ++v) {
             const bool dot = out_degree(v, above_) == 0;
             if (dot && (inside_[v] || !shell_holds_tracks_)) result_.inherited.push_back({above_[v].at, above_[v].at});
-            if (above_[v].root && inside_[v] && (dot || vertex_[v] >= 0) && !prolong(v, false)) barred_.push_back(v);
+            if (!above_[v].root || !inside_[v] || (!dot && vertex_[v] < 0)) continue;
+            if (above_[v].free || !boundary_.has_shell())
+                stand(v);
+            else if (!prolong(v, false))
+                barred_.push_back(v);
         }
         for (const std::size_t v : barred_) prolong(v, true);
         return std::move(result_);
@@ -61,6 +65,12 @@ private:
     std::size_t vertex(std::size_t v) {
         if (vertex_[v] < 0) vertex_[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{above_[v].at, false}, result_.forest));
         return static_cast<std::size_t>(vertex_[v]);
+    }
+
+    /// A root away from the shell: its tree stands on what is below.
+    void stand(std::size_t v) {
+        SupportVertex& own = result_.forest[vertex(v)];
+        if (!own.root) own.root = own.free = true;
     }
 
     void add(std::size_t a, std::size_t b, std::int32_t origin) {
@@ -101,6 +111,7 @@ private:
 
     /// A new root at p; the place of the old root v is kept when it is still one, so that walls above each other align.
     std::size_t root(Point p, std::size_t v) {
+        if (!boundary_.rooted) return add_vertex(SupportVertex{place_root(p, boundary_)}, result_.forest);
         if (v != no_vertex && above_[v].root && !inside_[v] &&
             squared_length(above_[v].at - p) <= root_tolerance * root_tolerance)
             return add_vertex(SupportVertex{above_[v].at, true}, result_.forest);
@@ -111,6 +122,10 @@ private:
 
     /// The wall between v and the shell is too short to keep: v itself becomes a root, so that its tree still has one.
     void anchor(std::size_t v) {
+        if (!boundary_.rooted) {
+            vertex(v);
+            return;
+        }
         const Point at = above_[v].at;
         const Segment& edge = boundary_.edges.segments()[boundary_.edges.nearest(at).index];
         result_.forest[vertex(v)] = {place_root(nearest_point(at, edge), boundary_), true};

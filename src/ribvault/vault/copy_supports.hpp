@@ -18,6 +18,9 @@ struct CopiedSupports {
 /// its own tree, which has another root, it is a root no longer.
 /// A dot vanishes when its place is shell on this layer, and is prolonged like any root when it is not.
 ///
+/// Free roots (vault/free_trees.hpp) stay what they are, and where there is no shell to reach, any root becomes one. Where the
+/// boundary is none of the shell's (removal gap), a clipped wall ends in a tip, and a tree may have no root.
+///
 /// shell_holds_tracks: ρ >= r, so that a wall inside the shell is held up by it over its whole width; otherwise walls
 /// in the shell and those that meet the boundary are inherited whole.
 CopiedSupports copy_supports(const SupportForest& above, const CavityBoundary& boundary, bool shell_holds_tracks);

@@ -1,8 +1,30 @@
 #include "ribvault/vault/erode_supports.hpp"
 
-namespace ribvault {
+#include <algorithm>
+#include <boost/graph/connected_components.hpp>
+#include <limits>
 
-ErodedSupports erode_supports(const SupportForest& forest, Unit step) {
+namespace ribvault {
+namespace {
+
+/// How much every tree may lose: of one that stands free, what exceeds a pillar.
+struct SpareLengths {
+    std::vector<std::size_t> of;  ///< per vertex: its tree
+    std::vector<double> spare;    ///< per tree
+};
+SpareLengths spare_lengths(const SupportForest& forest, Unit pillar_length) {
+    SpareLengths trees{std::vector<std::size_t>(num_vertices(forest)), {}};
+    trees.spare.resize(boost::connected_components(forest, trees.of.data()), std::numeric_limits<double>::infinity());
+    for (auto [v, end] = vertices(forest); v != end; ++v)
+        if (forest[*v].free) trees.spare[trees.of[*v]] = -static_cast<double>(pillar_length);
+    for (auto [e, end] = edges(forest); e != end; ++e)
+        trees.spare[trees.of[source(*e, forest)]] += length(forest[target(*e, forest)].at - forest[source(*e, forest)].at);
+    return trees;
+}
+
+}  // namespace
+
+ErodedSupports erode_supports(const SupportForest& forest, Unit step, Unit pillar_length) {
     const std::size_t n = num_vertices(forest);
     struct Edge {
         std::size_t a, b;
@@ -16,13 +38,17 @@ ErodedSupports erode_supports(const SupportForest& forest, Unit step) {
         at[b].push_back(static_cast<std::uint32_t>(list.size()));
         list.push_back({a, b});
     }
+    SpareLengths trees = spare_lengths(forest, pillar_length);
     std::vector<Point> place(n);
     std::vector<char> lost_branch(n, false);
     for (std::size_t v = 0; v < n; ++v) place[v] = forest[v].at;
 
     for (std::size_t tip = 0; step > 0 && tip < n; ++tip) {
         if (at[tip].size() != 1 || forest[tip].root) continue;
-        double left = static_cast<double>(step);
+        double& spare = trees.spare[trees.of[tip]];
+        if (spare <= 0) continue;
+        double left = std::min(static_cast<double>(step), spare);
+        spare -= left;  // at least what goes
         std::size_t v = tip;
         std::uint32_t edge = at[tip][0];
         while (true) {
@@ -52,7 +78,7 @@ ErodedSupports erode_supports(const SupportForest& forest, Unit step) {
     std::vector<std::int64_t> vertex(n, -1);
     const auto keep = [&](std::size_t v) {
         if (vertex[v] < 0) {
-            vertex[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{place[v], forest[v].root}, result.forest));
+            vertex[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{place[v], forest[v].root, forest[v].free}, result.forest));
             result.pinned.push_back(lost_branch[v]);
         }
         return static_cast<std::size_t>(vertex[v]);

@@ -16,6 +16,8 @@ struct ErodedSupports {
 /// Shortens every free tip (valence 1, not a root) by `step` along its path, through vertices of valence 2; a branch
 /// shorter than that vanishes up to its junction, which becomes a tip only on the next layer; a tree shorter than that
 /// leaves its root as a dot. Every point that is removed lies within `step` of what is left or of the root.
-ErodedSupports erode_supports(const SupportForest& forest, Unit step);
+///
+/// A tree that stands free (a root of it is) loses nothing that would leave less than `pillar_length` of it.
+ErodedSupports erode_supports(const SupportForest& forest, Unit step, Unit pillar_length = 0);
 
 }  // namespace ribvault

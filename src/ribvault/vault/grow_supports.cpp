@@ -47,7 +47,11 @@ public:
 
     SupportForest run() {
         add_pixels();
-        for (std::vector<std::size_t> open = all_cells(); !open.empty(); open = add_between(open)) {
+        std::vector<std::size_t> open = all_cells();
+        // What no wall may come near to (removal gap) stays open: a round that adds nothing is the last.
+        for (int before = -1; !open.empty() && supports_.added() != before;) {
+            before = supports_.added();
+            open = add_between(open);
         }
         if (settings_.trim) trim_walls(supports_, unsupported_, settings_);
         return supports_.take();
@@ -64,7 +68,7 @@ private:
         for (std::size_t k = 0; k < cells.size(); ++k) {
             if (cells[k].pixels == 0) continue;
             const Point c = UnsupportedCells::centre(cells[k].box);
-            const double nearest = std::sqrt(boundary_.edges.nearest(c).distance.value()) - half_diagonal(cells[k].box);
+            const double nearest = std::sqrt(to_shell(c).value()) - half_diagonal(cells[k].box);
             const auto bound = static_cast<std::int64_t>(std::max(0.0, nearest));
             queue.push({in_order({static_cast<Int128>(bound) * bound, 1}), 0, c, static_cast<std::int64_t>(k)});
         }
@@ -85,7 +89,10 @@ private:
         }
     }
 
-    Candidate point_candidate(Point p) const { return {in_order(boundary_.edges.nearest(p).distance), tie_of(p, seed_), p, -1}; }
+    Candidate point_candidate(Point p) const { return {in_order(to_shell(p)), tie_of(p, seed_), p, -1}; }
+
+    /// Where there is no shell all points are equally near.
+    SquaredDistance to_shell(Point p) const { return boundary_.has_shell() ? boundary_.edges.nearest(p).distance : SquaredDistance{0, 1}; }
 
     /// What decides when a point at this distance to B_i is looked at.
     SquaredDistance in_order(const SquaredDistance& distance) const {

@@ -45,6 +45,21 @@ bool GrowingSupports::covers(Point p, double radius) const {
     });
 }
 
+bool GrowingSupports::free_way(Point from, Point to, std::uint32_t wall) const {
+    const Segment way{from, to};
+    Box box;
+    box.add(way.a), box.add(way.b);
+    bool blocked = false;
+    grid_.visit(box, [&](std::uint32_t w) {
+        if (blocked || !walls_[w].alive || w == wall) return;
+        const Segment s = segment(w);
+        blocked = s.a != to && s.b != to && segments_touch(way, s);
+    });
+    if (blocked) return false;
+    boundary_.edges.visit(box, [&](std::uint32_t k) { blocked = blocked || segments_touch(way, boundary_.edges.segments()[k]); });
+    return !blocked;
+}
+
 bool GrowingSupports::free_way(Point from, std::size_t to) const {
     const Segment way{from, forest_[to].at};
     Box box;
@@ -60,7 +75,7 @@ bool GrowingSupports::free_way(Point from, std::size_t to) const {
     boundary_.edges.visit(box, [&](std::uint32_t k) {
         const Segment& e = boundary_.edges.segments()[k];
         if (blocked || !segments_touch(way, e)) return;
-        blocked = !forest_[to].root || compare_distance(way.b, e, root_tolerance) > 0;
+        blocked = !forest_[to].root || forest_[to].free || compare_distance(way.b, e, root_tolerance) > 0;
     });
     return !blocked;
 }
@@ -78,35 +93,88 @@ std::size_t GrowingSupports::split(std::uint32_t wall, Point near) {
     return v;
 }
 
-void GrowingSupports::add_wall(Point p) {
-    const NearestSegment::Hit shell = boundary_.edges.nearest(p);
-    const double shell_distance = std::sqrt(shell.distance.value());
-    const auto around = [&](double reach) {
-        const Unit by = static_cast<Unit>(reach) + 1;
-        return Box{{p.x - by, p.y - by}, {p.x + by, p.y + by}};
-    };
+namespace {
 
-    // The nearest wall, searched in growing squares up to the distance of the shell.
+Box around(Point p, double reach) {
+    const Unit by = static_cast<Unit>(reach) + 1;
+    return {{p.x - by, p.y - by}, {p.x + by, p.y + by}};
+}
+
+SquaredDistance squared(double distance) {
+    const auto whole = static_cast<Int128>(distance);
+    return {whole * whole, 1};
+}
+
+}  // namespace
+
+double GrowingSupports::longest_wall() const {
+    if (!boundary_.outside) return std::numeric_limits<double>::infinity();
+    // A wall of length L loses one step a layer: L² / (2 step) in all, less what the bed cuts off.
+    const auto layers = static_cast<double>(boundary_.layers_below), step = static_cast<double>(std::max<Unit>(settings_.erosion_step, 1));
+    const double pillar = static_cast<double>(settings_.pillar_length);
+    return 2 * pillar < layers * step ? std::sqrt(2 * step * pillar * layers) : pillar + layers * step / 2;
+}
+
+std::optional<std::uint32_t> GrowingSupports::nearest_wall(Point p, const SquaredDistance& limit, SquaredDistance& distance) const {
     std::optional<std::uint32_t> wall;
-    SquaredDistance wall_distance{0, 1};
-    double plain = shell_distance;
-    for (double reach = std::min(shell_distance, 2.0 * static_cast<double>(settings_.nozzle));; reach *= 2) {
-        grid_.visit(around(reach), [&](std::uint32_t w) {
+    const double farthest = std::sqrt(limit.value());
+    // Searched in growing squares.
+    for (double reach = std::min(farthest, 2.0 * static_cast<double>(settings_.nozzle));; reach *= 2) {
+        grid_.visit(around(p, reach), [&](std::uint32_t w) {
             if (!walls_[w].alive) return;
             const SquaredDistance d = squared_distance(p, segment(w));
-            const int order = wall ? compare(d, wall_distance) : compare(d, shell.distance);
-            if (order < 0 || (order == 0 && wall && w < *wall)) wall = w, wall_distance = d;
+            const int order = wall ? compare(d, distance) : compare(d, limit);
+            if (order > 0 || (order == 0 && (!wall || w >= *wall))) return;
+            // Nothing nearer than the shell is behind it.
+            if (boundary_.rooted || free_way(p, nearest_point(p, segment(w)), w)) wall = w, distance = d;
         });
-        if (wall) plain = std::min(plain, std::sqrt(wall_distance.value()));
-        if (plain <= reach || reach >= shell_distance) break;
+        if ((wall && std::sqrt(distance.value()) <= reach) || reach >= farthest) return wall;
     }
+}
+
+std::optional<Point> GrowingSupports::place_inside(Point p) const {
+    if (boundary_.location.locate(p) == Side::inside) return p;
+    if (boundary_.edges.empty()) return std::nullopt;
+    const Point near = nearest_point(p, boundary_.edges.segments()[boundary_.edges.nearest(p).index]);
+    for (Unit ring = 1; ring <= 3; ++ring)
+        for (Unit dy = -ring; dy <= ring; ++dy)
+            for (Unit dx = -ring; dx <= ring; ++dx)
+                if (const Point q{near.x + dx, near.y + dy}; boundary_.location.locate(q) == Side::inside) return q;
+    return std::nullopt;
+}
+
+void GrowingSupports::add_pillar(Point p) {
+    const std::size_t centre = add_vertex(SupportVertex{p, true, true}, forest_);
+    enter(centre, centre);
+    const Unit arm = settings_.pillar_length / 4;
+    for (const Point d : {Point{arm, 0}, Point{0, arm}, Point{-arm, 0}, Point{0, -arm}}) {
+        const Point end = p + d;
+        if (boundary_.location.locate(end) == Side::inside && free_way(end, centre)) connect(add_vertex(SupportVertex{end}, forest_), centre);
+    }
+}
+
+void GrowingSupports::add_wall(Point at) {
+    Point p = at;
+    if (boundary_.outside) {
+        const std::optional<Point> inside = place_inside(at);
+        if (!inside || covers(*inside, 0)) return;
+        p = *inside;
+    }
+    const double longest = longest_wall();
+    NearestSegment::Hit shell{0, squared(std::min(longest, static_cast<double>(lattice_bound)))};
+    bool to_shell = false;
+    if (boundary_.has_shell())
+        if (const NearestSegment::Hit hit = boundary_.edges.nearest(p); hit.distance.value() <= longest * longest) shell = hit, to_shell = true;
+    SquaredDistance wall_distance{0, 1};
+    const std::optional<std::uint32_t> wall = nearest_wall(p, shell.distance, wall_distance);
     const SquaredDistance plain_distance = wall ? wall_distance : shell.distance;
+    const double plain = std::sqrt(plain_distance.value());
 
     ++added_;
     const Unit bonus = settings_.branch_bonus ? settings_.branch_bonus_length : 0;
     std::vector<std::pair<SquaredDistance, std::size_t>> junctions;
     if (bonus > 0)
-        grid_.visit(around(plain + static_cast<double>(bonus)), [&](std::uint32_t w) {
+        grid_.visit(around(p, plain + static_cast<double>(bonus)), [&](std::uint32_t w) {
             if (!walls_[w].alive) return;
             for (const std::size_t v : {walls_[w].a, walls_[w].b}) {
                 if (out_degree(v, forest_) == 0 || out_degree(v, forest_) >= static_cast<std::size_t>(settings_.valence_limit)) continue;
@@ -128,6 +196,8 @@ void GrowingSupports::add_wall(Point p) {
     std::size_t to;
     if (wall) {
         to = split(*wall, p);
+    } else if (!to_shell) {
+        return add_pillar(p);
     } else {
         const Point foot = nearest_point(p, boundary_.edges.segments()[shell.index]);
         to = add_vertex(SupportVertex{place_root(foot, boundary_), true}, forest_);
@@ -147,7 +217,7 @@ SupportForest GrowingSupports::take() {
     SupportForest kept;
     std::vector<std::size_t> place(num_vertices(forest_));
     for (std::size_t v = 0; v < place.size(); ++v)
-        if (out_degree(v, forest_) > 0 || v < inherited_vertices_) place[v] = add_vertex(forest_[v], kept);
+        if (out_degree(v, forest_) > 0 || v < inherited_vertices_ || forest_[v].free) place[v] = add_vertex(forest_[v], kept);
     for (auto [e, end] = edges(forest_); e != end; ++e) add_edge(place[source(*e, forest_)], place[target(*e, forest_)], kept);
     return kept;
 }

@@ -20,6 +20,10 @@ public:
 
     /// Adds the wall that Section 4.3 gives to p: to the nearest point of B_i ∪ S_i under equation (4).
     /// Precondition: p lies strictly inside the cavity. Postcondition: covers(p, 0) up to rounding.
+    ///
+    /// Outside, where a wall would take more track down to the bed than a pillar does, p gets a pillar: a cross of
+    /// settings.pillar_length. There p may also lie between the object and the region that a removal gap leaves: the wall goes to
+    /// the point of the region nearest to it.
     void add_wall(Point p);
 
     /// A wall that add_wall added, from its new vertex to where it joined.
@@ -58,6 +62,11 @@ private:
     void connect(std::size_t a, std::size_t b);
     void add_tip(Point p, std::size_t joint);
     bool free_way(Point from, std::size_t to) const;
+    bool free_way(Point from, Point to, std::uint32_t wall) const;  ///< `to` lies on that wall
+    double longest_wall() const;                                    ///< that takes less track than a pillar
+    std::optional<std::uint32_t> nearest_wall(Point p, const SquaredDistance& limit, SquaredDistance& distance) const;
+    std::optional<Point> place_inside(Point p) const;
+    void add_pillar(Point p);
     std::size_t split(std::uint32_t wall, Point near);
 
     std::vector<NewWall> new_walls_;

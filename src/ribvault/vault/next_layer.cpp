@@ -1,8 +1,10 @@
 #include "ribvault/vault/next_layer.hpp"
 
+#include "ribvault/slice/lattice_clip.hpp"
 #include "ribvault/vault/copy_supports.hpp"
 #include "ribvault/vault/detect_unsupported.hpp"
 #include "ribvault/vault/erode_supports.hpp"
+#include "ribvault/vault/free_trees.hpp"
 #include "ribvault/vault/grow_supports.hpp"
 #include "ribvault/vault/shrink_supports.hpp"
 #include "ribvault/vault/straighten_supports.hpp"
@@ -15,8 +17,17 @@ namespace {
 SupportForest clip_again(const SupportForest& forest, const CavityBoundary& boundary) {
     SupportForest clipped = copy_supports(forest, boundary, true).forest;
     for (auto [v, end] = vertices(forest); v != end; ++v)
-        if (out_degree(*v, forest) == 0) add_vertex(forest[*v], clipped);
+        if (out_degree(*v, forest) == 0 && !forest[*v].free) add_vertex(forest[*v], clipped);
+    if (boundary.outside) root_trees(clipped);
     return clipped;
+}
+
+/// What of a region a wall can hold up that runs in `walls`.
+Region within_reach(const Region& region, const Region& walls, const Settings& settings) {
+    if (region.empty() || walls.empty()) return {};
+    const double slack = static_cast<double>(settings.slack);
+    return clip(ClipperLib::ctIntersection, region,
+                offset(walls, static_cast<double>(settings.nozzle / 2 + settings.support_radius) - 3 * slack, ClipperLib::jtRound, slack));
 }
 
 }  // namespace
@@ -25,9 +36,10 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
     LayerSupports result;
     std::vector<char> continues(num_edges(above), 0);
     if (!cavity.region.empty() && (num_vertices(above) > 0 || !overhang.empty())) {
-        const CavityBoundary boundary = prepare_boundary(cavity.region);
-        const bool shell_holds_tracks = settings.support_radius >= settings.nozzle / 2;
+        const CavityBoundary boundary = prepare_boundary(cavity);
+        const bool shell_holds_tracks = boundary.rooted && settings.support_radius >= settings.nozzle / 2;
         CopiedSupports copied = copy_supports(above, boundary, shell_holds_tracks);
+        if (cavity.outside) root_trees(copied.forest);
         SupportForest propagated;
         const auto note_continued = [&](const std::vector<char>& survives) {
             for (std::size_t e = 0; e < copied.origin.size(); ++e)
@@ -39,7 +51,7 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
             note_continued(shrunk.survives);
             propagated = shrunk.left_cavity ? clip_again(shrunk.forest, boundary) : std::move(shrunk.forest);
         } else {
-            eroded = erode_supports(copied.forest, settings.erosion_step);
+            eroded = erode_supports(copied.forest, settings.erosion_step, settings.pillar_length);
             note_continued(eroded.survives);
             propagated = std::move(eroded.forest);
         }
@@ -48,11 +60,15 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
             result.blocked = straightened.blocked;
             propagated = straightened.left_cavity ? clip_again(straightened.forest, boundary) : std::move(straightened.forest);
         }
+        if (cavity.outside) centre_free_trees(propagated);
         result.unsupported = unsupported_walls(copied.inherited, propagated, cavity, settings);
         result.unsupported.insert(result.unsupported.end(), overhang.begin(), overhang.end());
+        if (cavity.walls) result.unsupported = within_reach(result.unsupported, *cavity.walls, settings);
         const std::uint64_t layer_seed = settings.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(cavity.layer);
         result.forest = grow_supports(std::move(propagated), result.unsupported, boundary, layer_seed, settings);
     }
+    if (cavity.outside)
+        for (auto [v, end] = vertices(result.forest); v != end; ++v) result.forest[*v].outside = true;
     std::size_t index = 0;
     for (auto [e, end] = edges(above); e != end; ++e, ++index) above[*e].first_layer = !continues[index];
     return result;

@@ -9,7 +9,9 @@ namespace ribvault {
 
 struct SupportVertex {
     Point at;
-    bool root = false;  ///< lies on the shell B_i (within two lattice units of the boundary of C_i, on the shell's side)
+    bool root = false;  ///< lies on the shell B_i (within two lattice units of the boundary of C_i, on the shell's side), or is free
+    bool free = false;  ///< a root away from the shell: its tree stands on the layer below alone (vault/free_trees.hpp)
+    bool outside = false;  ///< its tree stands outside the slice: an external support
 };
 
 struct SupportEdge {

@@ -42,7 +42,7 @@ struct PrintVerdict {
 struct LayerVerdict {
     int layer = 0;                           ///< the upper layer, i
     bool supported = false;                  ///< proved: BS_i minus external overhangs lies within ρ of BS_{i-1}
-    std::string malformed;                   ///< why (2) has no meaning here (a cavity not inside its slice), or empty
+    std::string malformed;                   ///< why (2) has no meaning here (a cavity not inside its slice), which support breaks the removal gap, or empty
     std::optional<Unsupported> internal;     ///< refuted: what internal supports should have held up
     std::optional<Unsupported> external;     ///< farther than ρ from O_{i-1}: outside what internal supports can reach
     StageCounts stages;

@@ -111,7 +111,7 @@ LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const Lay
         return verdict;
     }
 
-    // External: M = BS_{i+1}, K = (O_i)^{ρ↑}.
+    // External: M = BS_{i+1}, K = (O_i)^{ρ↑}, with external supports united with the points within r + ρ of a centre line of S_i.
     CoverProblem external;
     external.vertices = vertices;
     external.material = above.outline;
@@ -119,7 +119,15 @@ LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const Lay
     for (const Edge& t : above.tracks) external.pieces.push_back({t.a, t.b, r});
     external.region = below.outline;
     for (const Edge& e : below.outline) external.sites.push_back({e.a, e.b, rho});
+    if (settings.outside())
+        for (const Edge& t : below.tracks) external.sites.push_back({t.a, t.b, r + rho});
     verdict.external = decide(external, window_of_m(external), rho, verdict.stages);
+    bool held_outside = !settings.outside() || !verdict.external;
+    if (!held_outside && settings.reach_of_object() > settings.support_radius) {
+        // Within the removal gap: K = (O_i)^{g + r ↑} and the tracks.
+        for (std::size_t k = 0; k < external.region.size(); ++k) external.sites[k].radius = static_cast<double>(settings.reach_of_object());
+        held_outside = !decide(external, window_of_m(external), rho, verdict.stages);
+    }
 
     // Internal: K = the points within ρ of the outside of C_i, and within r + ρ of a centre line of S_i.
     if (!below.cavity.empty()) {
@@ -138,7 +146,7 @@ LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const Lay
                   std::min(window.hi_x, cavity.hi_x), std::min(window.hi_y, cavity.hi_y)};
         verdict.internal = decide(internal, window, rho, verdict.stages);
     }
-    verdict.supported = !verdict.internal;
+    verdict.supported = !verdict.internal && held_outside;
     return verdict;
 }
 

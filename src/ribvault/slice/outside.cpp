@@ -1,0 +1,38 @@
+#include "ribvault/slice/outside.hpp"
+
+#include "ribvault/slice/lattice_clip.hpp"
+
+namespace ribvault {
+namespace {
+
+/// Lattice units that rounding may take away: see erode_slice.
+constexpr double rounding = 3;
+
+Region complement(const Region& region, const Box& frame) {
+    const Region all{{frame.lo, {frame.hi.x, frame.lo.y}, frame.hi, {frame.lo.x, frame.hi.y}}};
+    return clip(ClipperLib::ctDifference, all, region);
+}
+
+}  // namespace
+
+Cavity make_outside(const Slice& slice, const Box& frame, const Settings& s) {
+    // On the object's side of the region's boundary is object, as it is shell on the shell's side of a cavity's.
+    Cavity outside = make_cavity(slice.layer, complement(offset(slice.rounded, -rounding), frame), s);
+    outside.outside = true;
+    if (s.support_gap > 0) {
+        // Arcs become chords of their own circle; the last of an arc may be half as long again as the others, so that it cuts off
+        // 9/4 of the tolerance. Clipped ends and vertices are rounded by up to four lattice units after this; ten keep them off.
+        const double tolerance = static_cast<double>(s.slack) / 2;
+        const Region kept_off = offset(slice.rounded, static_cast<double>(s.support_gap + s.nozzle / 2) + 2.5 * tolerance + 10, ClipperLib::jtRound, tolerance);
+        outside.walls = uncross(complement(kept_off, frame));
+    }
+    return outside;
+}
+
+Region overhang_outside(const Cavity& outside, const Cavity& outside_above, const Cavity& cavity_above, const Settings& s) {
+    Region hanging = clip(ClipperLib::ctDifference, outside.deep, outside_above.inner);
+    if (s.bottom_layers == 0 && !hanging.empty() && !cavity_above.inner.empty()) hanging = clip(ClipperLib::ctDifference, hanging, cavity_above.inner);
+    return without_ties(hanging, outside, outside_above, s);
+}
+
+}  // namespace ribvault

@@ -1,0 +1,18 @@
+// Where external supports may stand: what lies outside a slice, as a cavity like any other (Section 6).
+#pragma once
+
+#include "ribvault/slice/cavity.hpp"
+
+namespace ribvault {
+
+/// What lies outside O_i within `frame`, a box that the object does not reach, as the sweep needs it. Its region overlaps the true
+/// slice by 30 nm, more than all roundings together, so a root on its boundary is in the slice; `deep` is what the object does not hold up. With
+/// settings.support_gap > 0 `walls` is what is left for centre lines: farther than g + r from the true slice, arcs at its
+/// corners circumscribed.
+Cavity make_outside(const Slice& slice, const Box& frame, const Settings& settings);
+
+/// Where the shell of layer i + 1 hangs over `outside`, what lies outside O_i, farther than ρ from B_i: what overhang_over_cavity
+/// is for cavities. `outside_above` lies outside O_{i+1}; `cavity_above` is C_{i+1}.
+Region overhang_outside(const Cavity& outside, const Cavity& outside_above, const Cavity& cavity_above, const Settings& settings);
+
+}  // namespace ribvault

@@ -1,0 +1,106 @@
+#include "ribvault/vault/free_trees.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace ribvault {
+namespace {
+
+using Vertex = std::size_t;
+
+/// A tree's vertices in the order of a walk from one of them.
+struct Walk {
+    std::vector<Vertex> order, parent;
+    std::vector<double> distance;  ///< from the start, by position in `order`
+    std::size_t farthest() const { return static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin()); }
+};
+
+Walk walk_from(Vertex start, const SupportForest& forest) {
+    Walk walk{{start}, {start}, {0}};
+    for (std::size_t k = 0; k < walk.order.size(); ++k) {
+        const Vertex v = walk.order[k], from = walk.parent[k];
+        const double here = walk.distance[k];
+        bool parent_met = k == 0;
+        for (auto [w, end] = adjacent_vertices(v, forest); w != end; ++w) {
+            if (!parent_met && *w == from) {
+                parent_met = true;
+                continue;
+            }
+            walk.order.push_back(*w), walk.parent.push_back(v);
+            walk.distance.push_back(here + length(forest[*w].at - forest[v].at));
+        }
+    }
+    return walk;
+}
+
+/// The middle of a tree: on the edge from `vertex` to `next` of its longest path, `along` units from the former.
+struct Middle {
+    Vertex vertex, next;
+    double along;
+};
+Middle middle_of(Vertex any, const SupportForest& forest) {
+    const Walk first = walk_from(any, forest);
+    const Walk path = walk_from(first.order[first.farthest()], forest);
+    std::size_t at = path.farthest();
+    const double half = path.distance[at] / 2;
+    while (path.distance[at] > half && path.order[at] != path.parent[at]) {
+        const Vertex up = path.parent[at];
+        std::size_t above = at;
+        while (path.order[above] != up) --above;
+        if (path.distance[above] <= half) return {up, path.order[at], half - path.distance[above]};
+        at = above;
+    }
+    return {path.order[at], path.order[at], 0};
+}
+
+}  // namespace
+
+void root_trees(SupportForest& forest) {
+    std::vector<char> seen(num_vertices(forest), 0);
+    for (auto [v, end] = vertices(forest); v != end; ++v) {
+        if (seen[*v]) continue;
+        const Walk tree = walk_from(*v, forest);
+        Vertex shell = forest.null_vertex(), free = shell;
+        for (const Vertex w : tree.order) {
+            seen[w] = 1;
+            Vertex& first = forest[w].free ? free : shell;
+            if (forest[w].root && first == forest.null_vertex()) first = w;
+            forest[w].root = forest[w].free = false;
+        }
+        if (shell != forest.null_vertex()) {
+            forest[shell].root = true;
+            continue;
+        }
+        if (free == forest.null_vertex()) {
+            const Middle middle = middle_of(*v, forest);
+            free = 2 * middle.along > length(forest[middle.next].at - forest[middle.vertex].at) ? middle.next : middle.vertex;
+        }
+        forest[free].root = forest[free].free = true;
+    }
+}
+
+void centre_free_trees(SupportForest& forest) {
+    std::vector<Vertex> free;
+    for (auto [v, end] = vertices(forest); v != end; ++v)
+        if (forest[*v].free) free.push_back(*v);
+    for (const Vertex v : free) {
+        const Middle middle = middle_of(v, forest);
+        forest[v].root = forest[v].free = false;
+        Vertex centre = middle.vertex;
+        if (middle.along > 0) {
+            const Point a = forest[middle.vertex].at, d = forest[middle.next].at - a;
+            const double t = middle.along / length(d);
+            const Point at{a.x + round_to_lattice(t * static_cast<double>(d.x)), a.y + round_to_lattice(t * static_cast<double>(d.y))};
+            if (at == forest[middle.next].at) centre = middle.next;
+            else if (at != a) {
+                centre = add_vertex(SupportVertex{at}, forest);
+                remove_edge(middle.vertex, middle.next, forest);
+                add_edge(middle.vertex, centre, forest);
+                add_edge(centre, middle.next, forest);
+            }
+        }
+        forest[centre].root = forest[centre].free = true;
+    }
+}
+
+}  // namespace ribvault

@@ -1,0 +1,81 @@
+// Outside a slice: where external supports may stand, and what hangs over it.
+#include "ribvault/slice/outside.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "ribvault/exact/nearest_segment.hpp"
+#include "ribvault/exact/point_location.hpp"
+#include "vault/random_cavities.hpp"
+
+using namespace ribvault;
+using namespace ribvault::test;
+
+namespace {
+
+const Box frame{{-3000000, -3000000}, {3000000, 3000000}};
+
+Slice slice_of(int layer, Region region) { return {layer, nullptr, std::move(region)}; }
+
+Cavity none() { return {}; }
+
+double area_mm2(const Region& region) { return area_to_mm2(signed_area(region)); }
+
+}  // namespace
+
+TEST_CASE("outside and slice fill the frame, and overlap by 30 nm") {
+    const Slice slice = slice_of(0, {rectangle(-500000, -500000, 500000, 500000), reversed(rectangle(-200000, -200000, 200000, 200000))});
+    const Cavity outside = make_outside(slice, frame, {});
+    const PointLocation location(edges_of(outside.region), units_per_mm);
+    CHECK(outside.outside);
+    CHECK_FALSE(outside.walls);
+    CHECK(location.locate({0, 0}) == Side::inside);  // a hole of the slice is outside
+    CHECK(location.locate({500000 - 3, 0}) == Side::boundary);
+    CHECK(location.locate({500000 - 4, 0}) == Side::outside);
+    CHECK(location.locate({900000, 900000}) == Side::inside);
+    CHECK(area_mm2(outside.region) + area_mm2(slice.rounded) == Approx(3600).margin(0.01));
+}
+
+TEST_CASE("with a removal gap walls keep g + r off every corner and edge of the slice, and no more than 4 um farther") {
+    std::mt19937_64 random(7);
+    Settings settings;
+    settings.support = Support::external;
+    for (const Unit gap : {5000, 20000, 33333, 120000}) {
+        settings.support_gap = gap;
+        const DriftingShapes shapes(random, 4, 2, 2000000, 3000);
+        const Slice slice = slice_of(3, shapes.at(3));
+        const Cavity outside = make_outside(slice, frame, settings);
+        REQUIRE(outside.walls);
+        const NearestSegment object(edges_of(slice.rounded));
+        const PointLocation solid(edges_of(slice.rounded), units_per_mm);
+        const Unit least = gap + settings.nozzle / 2;
+        std::size_t on_arcs = 0;
+        for (const Segment& e : edges_of(*outside.walls)) {
+            if (std::abs(e.a.x) == 3000000 || std::abs(e.a.y) == 3000000) continue;
+            // The nearest place of an edge that is no arc's chord may be between its ends.
+            for (const Segment& o : object.segments()) {
+                CHECK(compare_distance(e.a, o, least) > 0);
+                CHECK(compare_distance(o.a, e, least) > 0);
+            }
+            CHECK(solid.locate(e.a) == Side::outside);
+            on_arcs += compare_distance(e.a, object.segments()[object.nearest(e.a).index], least + 400) <= 0;
+        }
+        CHECK(on_arcs > 20);
+    }
+}
+
+TEST_CASE("what hangs over the outside is the slice above farther than rho from the slice") {
+    const Settings settings;
+    const Slice column = slice_of(0, {rectangle(-500000, -500000, 500000, 500000)});
+    const auto over = [&](Region above) {
+        return overhang_outside(make_outside(column, frame, settings), make_outside(slice_of(1, std::move(above)), frame, settings), none(), settings);
+    };
+    CHECK(over(column.rounded).empty());
+    CHECK(over({rectangle(-520000, -500000, 520000, 500000)}).empty());  // by exactly rho on two sides: a tie
+    CHECK_FALSE(over({rectangle(-520000, -520000, 520000, 520000)}).empty());  // its corners are farther
+    const Region hanging = over({rectangle(-500000, -500000, 800000, 500000)});
+    REQUIRE(hanging.size() == 1);
+    CHECK(area_mm2(hanging) == Approx(10 * 2.8).epsilon(0.001));
+    CHECK(area_mm2(hanging) >= 10 * 2.8);
+    const Region in_the_air = over({column.rounded.front(), rectangle(1000000, 1000000, 1100000, 1100000)});
+    CHECK(area_mm2(in_the_air) == Approx(1).epsilon(0.001));
+}

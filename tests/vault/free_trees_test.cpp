@@ -1,0 +1,149 @@
+// Supports that stand free: one root a tree, in its middle; what erosion leaves; walls or pillars by the track they need.
+#include "ribvault/vault/free_trees.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "forest_checks.hpp"
+#include "random_cavities.hpp"
+#include "ribvault/slice/outside.hpp"
+#include "ribvault/vault/erode_supports.hpp"
+#include "ribvault/vault/next_layer.hpp"
+#include "within.hpp"
+
+using namespace ribvault;
+using namespace ribvault::test;
+
+namespace {
+
+const Box frame{{-4000000, -4000000}, {4000000, 4000000}};
+
+SupportForest chain(std::vector<Point> points) {
+    SupportForest forest;
+    std::size_t last = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const std::size_t v = add_vertex(SupportVertex{points[k]}, forest);
+        if (k > 0) add_edge(last, v, forest);
+        last = v;
+    }
+    return forest;
+}
+
+std::vector<std::size_t> roots(const SupportForest& forest) {
+    std::vector<std::size_t> found;
+    for (auto [v, end] = vertices(forest); v != end; ++v)
+        if (forest[*v].root) found.push_back(*v);
+    return found;
+}
+
+Cavity beside(int layer, Region slice, const Settings& settings) { return make_outside({layer, nullptr, std::move(slice)}, frame, settings); }
+
+/// The supports of `layer` under a square of `half` units about p, beside a block that reaches to x = 0.
+LayerSupports under_a_square(int layer, Point p, Unit half, const Settings& settings) {
+    SupportForest none;
+    return next_layer(none, beside(layer, {rectangle(-1000000, -1000000, 0, 1000000)}, settings),
+                      {rectangle(p.x - half, p.y - half, p.x + half, p.y + half)}, settings);
+}
+
+}  // namespace
+
+TEST_CASE("every tree keeps one root: the shell's before a free one, else the vertex in its middle") {
+    SupportForest forest = chain({{0, 0}, {100000, 0}, {250000, 0}, {300000, 0}});
+    root_trees(forest);
+    CHECK(roots(forest) == std::vector<std::size_t>{1});  // the middle is at 150000
+    CHECK(forest[1].free);
+    root_trees(forest);
+    CHECK(roots(forest) == std::vector<std::size_t>{1});
+    forest[3].root = true;
+    root_trees(forest);
+    CHECK(roots(forest) == std::vector<std::size_t>{3});
+    CHECK_FALSE(forest[1].free);
+    forest[0].root = true;
+    root_trees(forest);
+    CHECK(roots(forest) == std::vector<std::size_t>{0});
+}
+
+TEST_CASE("the root of a free tree moves to the middle of its longest path, trees on the shell stay") {
+    SupportForest forest = chain({{0, 0}, {400000, 0}});
+    forest[0].root = forest[0].free = true;
+    centre_free_trees(forest);
+    const std::vector<std::size_t> root = roots(forest);
+    REQUIRE(root.size() == 1);
+    CHECK(forest[root[0]].at == Point{200000, 0});
+    CHECK(forest[root[0]].free);
+    CHECK(num_edges(forest) == 2);
+    CHECK(total_length(forest) == 400000);
+    centre_free_trees(forest);
+    CHECK(num_edges(forest) == 2);
+    SupportForest rooted = chain({{0, 0}, {400000, 0}});
+    rooted[0].root = true;
+    centre_free_trees(rooted);
+    CHECK(roots(rooted) == std::vector<std::size_t>{0});
+}
+
+TEST_CASE("erosion leaves a pillar's length of a free tree, layer after layer, and of others nothing") {
+    SupportForest forest = chain({{-700000, 0}, {0, 0}, {0, 900000}});
+    forest[1].root = forest[1].free = true;
+    SupportForest rooted = forest;
+    rooted[1].free = false;
+    for (int layer = 0; layer < 60; ++layer) {
+        const double before = total_length(forest);
+        forest = erode_supports(forest, 20000, 400000).forest;
+        rooted = erode_supports(rooted, 20000, 400000).forest;
+        CHECK(total_length(forest) <= before);
+        CHECK(total_length(forest) >= 400000);
+        CHECK(roots(forest).size() == 1);
+    }
+    CHECK(total_length(forest) <= 400000 + 4);
+    CHECK(total_length(rooted) == 0);
+}
+
+TEST_CASE("a wall to the object where that takes less track down to the bed, a pillar where it takes more") {
+    const Settings settings;
+    // 4 mm of pillar on each of n layers against the triangle of a wall of length L: L² / 0.4 mm, cut off by the bed.
+    struct Case {
+        int layer;
+        Unit distance;
+        bool wall;
+    };
+    for (const Case& c : {Case{100, 1000000, true}, Case{100, 1350000, false}, Case{10, 400000, true}, Case{10, 600000, false}, Case{400, 2400000, true}}) {
+        const LayerSupports supports = under_a_square(c.layer, {c.distance, 0}, 10000, settings);
+        INFO("layer " << c.layer << ", " << to_mm(c.distance) << " mm");
+        CHECK(forest_fault(supports.forest) == "");
+        const std::vector<std::size_t> root = roots(supports.forest);
+        REQUIRE(root.size() == 1);
+        CHECK(supports.forest[root[0]].free == !c.wall);
+        CHECK(total_length(supports.forest) == Approx(c.wall ? static_cast<double>(c.distance) : 400000.0).margin(20000));
+        for (auto [v, end] = vertices(supports.forest); v != end; ++v) CHECK(supports.forest[*v].outside);
+    }
+}
+
+TEST_CASE("free supports go down to the bed as one tree each, no wall farther than the erosion step from the wall above") {
+    for (const Unit gap : {0, 20000}) {
+        Settings settings;
+        settings.support = Support::external;
+        settings.support_gap = gap;
+        LayerSupports above = under_a_square(80, {2000000, 0}, 200000, settings);
+        const std::size_t trees = component_count(above.forest);
+        for (int layer = 79; layer >= 0; --layer) {
+            const LayerSupports below = next_layer(above.forest, beside(layer, {rectangle(-1000000, -1000000, 0, 1000000)}, settings), {}, settings);
+            CHECK(forest_fault(below.forest) == "");
+            CHECK(component_count(below.forest) == trees);
+            CHECK(total_length(below.forest) <= total_length(above.forest) + 4);
+            CHECK(total_length(below.forest) >= 0.9 * 400000);  // straightening takes a little
+            for (const Segment& s : tracks_of(above.forest)) CHECK(within(s, NearestSegment(tracks_of(below.forest)), settings.support_radius));
+            above = below;
+        }
+        CHECK(total_length(above.forest) <= static_cast<double>(trees) * 400000 + 4);
+    }
+}
+
+TEST_CASE("a root that the object leaves behind without another in reach stands free") {
+    Settings settings;
+    settings.support = Support::external;
+    SupportForest above = under_a_square(50, {300000, 0}, 10000, settings).forest;
+    REQUIRE(roots(above).size() == 1);
+    REQUIRE_FALSE(above[roots(above)[0]].free);
+    const SupportForest in_the_air = next_layer(above, beside(49, {}, settings), {}, settings).forest;
+    REQUIRE(roots(in_the_air).size() == 1);
+    CHECK(in_the_air[roots(in_the_air)[0]].free);
+}
