@@ -90,7 +90,7 @@ public:
             lay_tracks();
             open = look(affected(open, before));
         }
-        held_.patch_tracks = std::move(patches_);
+        for (const Patch& patch : patches_) held_.patch_tracks.push_back(patch.segment);
         return std::move(held_);
     }
 
