@@ -18,7 +18,7 @@ std::string mm(double value) {
 
 [[noreturn]] void refuse(double needed, double bed, const char* of, double reach) {
     throw Error(ErrorKind::does_not_fit, "the print needs " + mm(needed) + " mm" + of + " and the bed has " + mm(bed) + " mm" +
-                                             (reach > 0 ? " (skirt, brim and supports take " + mm(2 * reach) + " mm of it); make them smaller, or scale the model down with --scale"
+                                             (reach > 0 ? " (skirt and brim, and external supports, take " + mm(2 * reach) + " mm of it); make them smaller, or scale the model down with --scale"
                                                         : std::string("; scale the model down with --scale")));
 }
 
