@@ -60,6 +60,23 @@ def lathe(profile, steps=64):
     return triangles
 
 
+def box(low, high):
+    corners = [tuple((low, high)[k >> axis & 1][axis] for axis in range(3)) for k in range(8)]
+    quads = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+    return [(corners[a], corners[b], corners[c]) for q in quads for a, b, c in ((q[0], q[1], q[2]), (q[0], q[2], q[3]))]
+
+
+def bridge(length=40.0, width=10.0, height=20.0, deck=3.0, pier=4.0):
+    """A deck on two piers; the boxes overlap."""
+    return (box((0, 0, 0), (pier, width, height)) + box((length - pier, 0, 0), (length, width, height)) +
+            box((0, 0, height - deck), (length, width, height)))
+
+
+def nail(length=40.0, shaft=2.0, head=6.0, thickness=3.0):
+    """Upright on the end of its shaft, its head an overhang all around."""
+    return lathe([(shaft, 0.0), (shaft, length - thickness), (head, length - thickness), (head, length)])
+
+
 def sphere(radius=10.0, steps=48):
     angles = [math.pi * (k + 0.5) / steps for k in range(steps)]
     return lathe([(radius * math.sin(a), -radius * math.cos(a)) for a in angles], 2 * steps)
@@ -177,7 +194,7 @@ def main():
     shutil.copyfile(HERE / "models/cube20.stl", folder / "cube20.stl")
     cone = lathe([(3.0, 0.0), (12.0, 20.0)])
     for name, triangles in {"sphere": sphere(), "arch": arch(), "cone": cone, "low_roof": low_roof(), "far_tip": far_tip(), "slope45": slope45(),
-                            "gyroid": gyroid(), "blobs": blobs()}.items():
+                            "gyroid": gyroid(), "blobs": blobs(), "bridge_solid": bridge(), "nail_solid": nail()}.items():
         write_stl(folder / f"{name}.stl", triangles)
 
 

@@ -15,7 +15,7 @@ from lab.store import digest, file_digest
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    kind: str                # generate, carve, hollow, infill, floating, prusa, cura, own
+    kind: str                # generate, carve, hollow, infill, floating, prusa, cura, own, supports_*
     model: Model
     settings: tuple = ()     # options of the program, ("--top-layers", "0", ...)
     seed: int = 1
@@ -88,10 +88,17 @@ def peer(run, folder):
     return peers.run(run, folder)
 
 
+def external(run, folder):
+    from lab import external
+    return external.run(run, folder)
+
+
 KINDS = {"generate": (generate, ["ribvault"]), "carve": (baseline, ["ribvault_baselines"]), "hollow": (baseline, ["ribvault_baselines"]),
          "infill": (baseline, ["ribvault_baselines"]), "floating": (floating, ["ribvault_floating"]),
          "prusa": (peer, ["ribvault_baselines", "prusa-slicer"]), "cura": (peer, ["ribvault_baselines", "CuraEngine"]),
-         "own": (peer, ["ribvault_baselines", "ribvault"])}
+         "own": (peer, ["ribvault_baselines", "ribvault"]), "supports_own": (external, ["ribvault_baselines", "ribvault"]),
+         "supports_grid": (external, ["ribvault_baselines", "prusa-slicer"]), "supports_snug": (external, ["ribvault_baselines", "prusa-slicer"]),
+         "supports_tree": (external, ["ribvault_baselines", "CuraEngine"])}
 
 
 @functools.cache
@@ -105,6 +112,8 @@ def version(kind):
         files.append(path)
     if kind in ("prusa", "cura", "own"):
         files += [program("ribvault"), HERE / "lab/peers.py", HERE / "lab/sampling.py"]
+    if kind.startswith("supports_"):
+        files += [program("ribvault"), HERE / "lab/external.py", HERE / "lab/peers.py", HERE / "lab/sampling.py"]
     return digest([file_digest(f) for f in files])
 
 

@@ -1,0 +1,51 @@
+"""Table 6: material and time of external supports; ours beside PrusaSlicer's grid and snug supports and CuraEngine's tree supports."""
+import dataclasses
+import math
+
+from lab.runs import Run
+from lab.tables import Table
+
+PROGRAMS = (("supports_own", (), "ribvault"), ("supports_own", ("--support-gap", "0.2"), "ribvault, gap 0.2 mm"), ("supports_grid", (), "PrusaSlicer, grid"),
+            ("supports_snug", (), "PrusaSlicer, snug"), ("supports_tree", (), "CuraEngine, tree"))
+MESHES = ("bunny00", "hand", "elephant", "bull", "armadillo", "camel", "elk", "bear", "knot", "dino", "anchor", "fandisk")
+
+
+def at_50_mm(model):
+    options = dict(zip(model.placement[::2], model.placement[1::2]))
+    options["--height"] = "50"
+    return dataclasses.replace(model, placement=tuple(x for pair in options.items() for x in pair))
+
+
+def added(with_supports, without):
+    """Minutes, or nothing."""
+    return None if with_supports is None or without is None else (with_supports - without) / 60
+
+
+def centimetres(mm3):
+    return None if mm3 is None else mm3 / (math.pi / 4 * 1.75 ** 2) / 10
+
+
+def build(lab):
+    titles = [title for _, _, title in PROGRAMS]
+    material = Table("table6", "External supports: filament and time that they add",
+                     [("model", ""), *((f"{t}: cm", ".0f") for t in titles), ("ribvault of grid %", ".0f"), *((f"{t}: min", ".0f") for t in titles[:-1])],
+                     note="One perimeter, one cover, 0.2 mm layers, supports under slopes flatter than 45 degrees. Minutes: with supports less without, each program's own "
+                          "estimate; CuraEngine alone makes none.")
+    judged = Table("table6_judged", "The same prints judged: unsupported mm² at most, of the whole print, inside and outside",
+                   [("model", ""), *((t, ".1f") for t in titles), ("ribvault: supported", "")],
+                   note="With the gap nothing within 0.4 mm (g + r) of the object is held nearer than that where a support would have to stand in the gap.")
+    rows = [(f"{row['model']} (the paper: {row['ours_cm']} cm, {row['ours_min']} min)", model) for row, model, real in lab.paper_models("table6_external") if model and real]
+    rows += [(lab.registry[name].title, lab.registry[name]) for name in ("nail_solid", "bridge_solid")]
+    rows += [(f"{lab.registry[name].title}, 50 mm", at_50_mm(lab.registry[name])) for name in MESHES if lab.registry[name].file]
+    for title, model in rows:
+        runs = [Run(kind, model, settings) for kind, settings, _ in PROGRAMS]
+        support = [lab.value(run, "supported.support_mm3") for run in runs]
+        minutes = [added(lab.value(run, "supported.print_seconds"), lab.value(run, "plain.print_seconds")) for run in runs[:-1]]
+        areas = [(lab.value(run, "verify.report.totals.area_mm2") or (None, None))[1] for run in runs]
+        grid = support[2]
+        material.add(title, *(centimetres(v) for v in support), 100 * support[0] / grid if grid and support[0] is not None else None, *minutes)
+        judged.add(title, *areas, lab.value(runs[0], "verify.report.verdict.supported"))
+    totals = [[row[k] for row in material.rows[-len(MESHES):] if row[k] is not None] for k in range(1, 1 + len(PROGRAMS))]
+    if all(totals) and totals[2]:
+        material.add("CGAL's meshes together", *map(sum, totals), 100 * sum(totals[0]) / sum(totals[2]))
+    return [material, judged]
