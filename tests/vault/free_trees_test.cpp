@@ -8,6 +8,7 @@
 #include "ribvault/slice/outside.hpp"
 #include "ribvault/vault/erode_supports.hpp"
 #include "ribvault/vault/next_layer.hpp"
+#include "ribvault/vault/shrink_supports.hpp"
 #include "within.hpp"
 
 using namespace ribvault;
@@ -95,6 +96,25 @@ TEST_CASE("erosion leaves a pillar's length of a free tree, layer after layer, a
     }
     CHECK(total_length(forest) <= 400000 + 4);
     CHECK(total_length(rooted) == 0);
+}
+
+TEST_CASE("shrinking leaves a free tree that is no longer than a pillar alone, and others their root") {
+    const CavityBoundary room = prepare_boundary(beside(5, {}, {}));
+    REQUIRE(room.edges.empty());
+    SupportForest forest = chain({{-700000, 0}, {0, 0}, {0, 900000}});
+    forest[1].root = forest[1].free = true;
+    for (int layer = 0; layer < 60; ++layer) {
+        const double before = total_length(forest);
+        const ShrunkSupports shrunk = shrink_supports(forest, room, 20000, 400000);
+        CHECK(total_length(shrunk.forest) <= before);
+        if (before <= 400000) CHECK(total_length(shrunk.forest) == before);
+        forest = shrunk.forest;
+        REQUIRE(roots(forest).size() == 1);
+        CHECK(forest[roots(forest)[0]].free);
+        CHECK(forest[roots(forest)[0]].at == Point{0, 0});
+    }
+    CHECK(total_length(forest) > 360000 - 4);  // two tips may each have taken a step from a little more than a pillar
+    CHECK(total_length(forest) <= 400000);
 }
 
 TEST_CASE("a wall to the object where that takes less track down to the bed, a pillar where it takes more") {

@@ -47,7 +47,7 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         };
         ErodedSupports eroded;
         if (settings.propagation == Propagation::shrink) {
-            ShrunkSupports shrunk = shrink_supports(copied.forest, boundary, settings.erosion_step);
+            ShrunkSupports shrunk = shrink_supports(copied.forest, boundary, settings.erosion_step, settings.pillar_length);
             note_continued(shrunk.survives);
             propagated = shrunk.left_cavity ? clip_again(shrunk.forest, boundary) : std::move(shrunk.forest);
         } else {

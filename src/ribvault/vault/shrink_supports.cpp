@@ -1,6 +1,8 @@
 #include "ribvault/vault/shrink_supports.hpp"
 
 #include <algorithm>
+#include <boost/graph/connected_components.hpp>
+#include <limits>
 #include <numeric>
 
 #include "ribvault/vault/segment_grid.hpp"
@@ -24,11 +26,12 @@ Point rounded(Vec a) { return {round_to_lattice(a.x), round_to_lattice(a.y)}; }
 
 class Shrinker {
 public:
-    Shrinker(const SupportForest& forest, const CavityBoundary& boundary, Unit step)
+    Shrinker(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length)
         : boundary_(boundary), step_(step), grid_(bounds(forest), units_per_mm, step + 2) {
         for (auto [v, end] = vertices(forest); v != end; ++v) nodes_.push_back({forest[*v].at, forest[*v].root, {forest[*v].at}, {}});
         for (auto [e, end] = edges(forest); e != end; ++e) add_wall(source(*e, forest), target(*e, forest));
         input_walls_ = walls_.size();
+        keep_pillars(forest, static_cast<double>(pillar_length));
     }
 
     ShrunkSupports run() {
@@ -50,11 +53,22 @@ private:
         std::vector<Point> from;  ///< where the points that are here now were: all within step
         std::vector<std::uint32_t> walls;
         bool gone = false;
+        bool free = false;   ///< a root away from the shell
+        bool stays = false;  ///< of a free tree with no more track than a pillar
     };
     struct Wall {
         std::size_t a, b;
         bool alive = true;
     };
+
+    void keep_pillars(const SupportForest& forest, double pillar_length) {
+        std::vector<std::size_t> tree(num_vertices(forest));
+        std::vector<double> spare(boost::connected_components(forest, tree.data()), std::numeric_limits<double>::infinity());
+        for (std::size_t v = 0; v < tree.size(); ++v)
+            if (forest[v].free) nodes_[v].free = true, spare[tree[v]] = -pillar_length;
+        for (auto [e, end] = edges(forest); e != end; ++e) spare[tree[source(*e, forest)]] += length(forest[target(*e, forest)].at - forest[source(*e, forest)].at);
+        for (std::size_t v = 0; v < tree.size(); ++v) nodes_[v].stays = spare[tree[v]] <= 0;
+    }
 
     static Box bounds(const SupportForest& forest) {
         Box box;
@@ -141,6 +155,7 @@ private:
     }
 
     bool improve(std::size_t v) {
+        if (nodes_[v].stays || nodes_[v].free) return false;
         if (nodes_[v].root) return slide(v);
         if (merge_into_neighbour(v)) return true;
         const Vec here = vec(nodes_[v].at), to = best_place(v);
@@ -283,7 +298,7 @@ private:
     void zip_corners() {
         const std::size_t n = nodes_.size();
         for (std::size_t v = 0; v < n; ++v) {
-            if (nodes_[v].gone || nodes_[v].walls.size() < (nodes_[v].root ? 2u : 4u)) continue;
+            if (nodes_[v].gone || nodes_[v].stays || nodes_[v].walls.size() < (nodes_[v].root ? 2u : 4u)) continue;
             std::vector<std::pair<double, std::uint32_t>> around;
             for (const std::uint32_t w : nodes_[v].walls) {
                 const Vec d = vec(nodes_[other(w, v)].at) - vec(nodes_[v].at);
@@ -333,7 +348,7 @@ private:
         std::vector<std::int64_t> vertex(nodes_.size(), -1);
         const auto keep = [&](std::size_t v) {
             if (vertex[v] < 0)
-                vertex[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{nodes_[v].at, nodes_[v].root}, result.forest));
+                vertex[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{nodes_[v].at, nodes_[v].root, nodes_[v].free}, result.forest));
             return static_cast<std::size_t>(vertex[v]);
         };
         for (const Wall& w : walls_)
@@ -362,8 +377,8 @@ private:
 
 }  // namespace
 
-ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step) {
-    return Shrinker(forest, boundary, step).run();
+ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length) {
+    return Shrinker(forest, boundary, step, pillar_length).run();
 }
 
 }  // namespace ribvault

@@ -21,6 +21,8 @@ struct ShrunkSupports {
 /// Every point of a wall stays within `step` of what has become of the wall (a segment whose ends moved by at most `step`,
 /// decided exactly, or a point within `step` of both its ends), so equation (1) holds as for the paper's two operators. No two
 /// walls cross that did not before.
-ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step);
+///
+/// Roots of trees that stand free stay where they are, and of such a tree that has no more than `pillar_length` everything does.
+ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length = 0);
 
 }  // namespace ribvault
