@@ -52,6 +52,7 @@ void add_geometry(CLI::App* command, Written& w) {
         "internal: hollow, supports in the cavities; external: solid, supports outside; both (default internal)")
         ->check(CLI::IsMember({"internal", "external", "both"}))->type_name("NAME");
     add_length(outside, "--support-gap", s.support_gap, "keep external supports this far off the object, in plane (default 0)");
+    outside->add_flag("--pillars", s.pillars, "trees on the object stand free where that takes less track down to the bed");
     add_length(outside, "--pillar-length", s.pillar_length, "track on every layer of a support that stands free (default 4)");
     const auto supports = command->add_option_group("Supports (Sections 4.1 to 4.3)");
     const auto radius = supports->add_option_function<std::string>(

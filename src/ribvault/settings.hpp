@@ -51,6 +51,7 @@ struct Settings {
     /// Removal gap g in plane: no external track's edge comes nearer to the object. With 0 external walls may be rooted on it.
     Unit support_gap = 0;
     Unit pillar_length = 400000;  ///< track that is left of a tree that stands free, on every layer down to what it stands on
+    bool pillars = false;  ///< external trees on the object stand free where that takes less track down to the bed (vault/free_trees.hpp)
     bool trim = false;  ///< new walls end as early as what they are there for allows (vault/trim_walls.hpp)
 
     Unit erosion_step = 20000;     ///< how much a free tip loses per layer (Section 4.1); at most ρ keeps equation (1)

@@ -73,6 +73,7 @@ TEST_CASE("random blocks in the air end proved with external supports, with and 
         settings.seed = random();
         settings.top_layers = static_cast<int>(random() % 3);
         settings.bottom_layers = static_cast<int>(random() % 3);
+        settings.pillars = round % 4 < 2;
         if (round % 3 == 1) settings.support_radius = 12000, settings.erosion_step = settings.straighten_step = 12000;
         if (round % 5 == 4) settings.propagation = Propagation::shrink, settings.order = Order::doubling, settings.trim = true;
         const RunReport report = run(random_blocks(random), settings);

@@ -81,6 +81,21 @@ TEST_CASE("the root of a free tree moves to the middle of its longest path, tree
     CHECK(roots(rooted) == std::vector<std::size_t>{0});
 }
 
+TEST_CASE("a tree on the shell stands free where the track down to the bed says so") {
+    // A wall of 2 x 25 mm that loses 0.2 mm a layer. On n layers each half counts until its middle is reached: min(n, 187.5) and min(n, 62.5)
+    // times 25 mm from the shell, twice the latter from the wall's middle, and 4 mm of pillar a layer.
+    SupportForest wall = chain({{0, 0}, {2500000, 0}, {5000000, 0}});
+    wall[0].root = true;
+    for (const auto& [layers, stands_free] : {std::pair{10, false}, {50, false}, {70, false}, {80, true}, {150, true}, {600, true}, {2500, false}}) {
+        SupportForest tree = wall;
+        free_where_cheaper(tree, layers, 20000, 400000);
+        INFO(layers << " layers");
+        CHECK(tree[1].free == stands_free);
+        CHECK(roots(tree).size() == 1);
+        CHECK(tree[0].root == !stands_free);
+    }
+}
+
 TEST_CASE("erosion leaves a pillar's length of a free tree, layer after layer, and of others nothing") {
     SupportForest forest = chain({{-700000, 0}, {0, 0}, {0, 900000}});
     forest[1].root = forest[1].free = true;

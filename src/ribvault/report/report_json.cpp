@@ -50,6 +50,7 @@ Json settings(const Settings& s) {
             {"order", s.order == Order::doubling ? "doubling" : "distance"},
             {"support", s.support == Support::external ? "external" : s.support == Support::both ? "both" : "internal"},
             {"support_gap_mm", to_mm(s.support_gap)},
+            {"pillars", s.pillars},
             {"pillar_length_mm", to_mm(s.pillar_length)},
             {"trim", s.trim},
             {"gaps", s.gaps == Gaps::proved ? "proved" : s.gaps == Gaps::paper ? "paper" : "none"},

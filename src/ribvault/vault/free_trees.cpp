@@ -53,6 +53,27 @@ Middle middle_of(Vertex any, const SupportForest& forest) {
     return {path.order[at], path.order[at], 0};
 }
 
+Vertex middle_vertex(Vertex any, const SupportForest& forest) {
+    const Middle middle = middle_of(any, forest);
+    return 2 * middle.along > length(forest[middle.next].at - forest[middle.vertex].at) ? middle.next : middle.vertex;
+}
+
+/// The track of a tree on all layers down to the bed while its tips run back to the root.
+double track_down(Vertex root, const SupportForest& forest, int layers, Unit step) {
+    const Walk walk = walk_from(root, forest);
+    std::vector<std::size_t> place(num_vertices(forest));
+    for (std::size_t k = 0; k < walk.order.size(); ++k) place[walk.order[k]] = k;
+    std::vector<double> reach(walk.order.size(), 0);
+    double sum = 0;
+    for (std::size_t k = walk.order.size(); k-- > 1;) {
+        const std::size_t up = place[walk.parent[k]];
+        const double l = walk.distance[k] - walk.distance[up];
+        sum += l * std::min(static_cast<double>(layers), (reach[k] + l / 2) / static_cast<double>(step));
+        reach[up] = std::max(reach[up], reach[k] + l);
+    }
+    return sum;
+}
+
 }  // namespace
 
 void root_trees(SupportForest& forest) {
@@ -71,11 +92,20 @@ void root_trees(SupportForest& forest) {
             forest[shell].root = true;
             continue;
         }
-        if (free == forest.null_vertex()) {
-            const Middle middle = middle_of(*v, forest);
-            free = 2 * middle.along > length(forest[middle.next].at - forest[middle.vertex].at) ? middle.next : middle.vertex;
-        }
+        if (free == forest.null_vertex()) free = middle_vertex(*v, forest);
         forest[free].root = forest[free].free = true;
+    }
+}
+
+void free_where_cheaper(SupportForest& forest, int layers, Unit step, Unit pillar_length) {
+    if (step <= 0) return;
+    for (auto [v, end] = vertices(forest); v != end; ++v) {
+        if (!forest[*v].root || forest[*v].free || out_degree(*v, forest) == 0) continue;
+        const Vertex middle = middle_vertex(*v, forest);
+        const double pillar = static_cast<double>(pillar_length) * layers;
+        if (pillar + track_down(middle, forest, layers, step) >= track_down(*v, forest, layers, step)) continue;
+        forest[*v].root = false;
+        forest[middle].root = forest[middle].free = true;
     }
 }
 

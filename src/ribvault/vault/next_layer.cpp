@@ -40,6 +40,7 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         const bool shell_holds_tracks = boundary.rooted && settings.support_radius >= settings.nozzle / 2;
         CopiedSupports copied = copy_supports(above, boundary, shell_holds_tracks);
         if (cavity.outside) root_trees(copied.forest);
+        if (cavity.outside && settings.pillars) free_where_cheaper(copied.forest, cavity.layer, settings.erosion_step, settings.pillar_length);
         SupportForest propagated;
         const auto note_continued = [&](const std::vector<char>& survives) {
             for (std::size_t e = 0; e < copied.origin.size(); ++e)
