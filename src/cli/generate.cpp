@@ -74,6 +74,9 @@ void add_geometry(CLI::App* command, Written& w) {
     supports->add_flag_function("--no-doubling", [&s](std::int64_t) { s.order = Order::distance; }, "thrifty with the paper's order of points");
     add_length(supports, "--erosion-step", w.erosion_step, "what a free tip loses per layer (default: rho)");
     supports->add_flag("--no-straighten", w.no_straighten, "leave out the straightening operator");
+    supports->add_option("--wall-lines", s.wall_lines, "tracks side by side in long or tall walls (default 1)");
+    add_length(supports, "--wall-lines-longer", s.wall_lines_longer, "what is long, from the root to the farthest tip (default 10)");
+    add_length(supports, "--wall-lines-taller", s.wall_lines_taller, "what is tall (default 10)");
     add_length(supports, "--straighten-step", w.straighten_step, "how far a vertex moves per layer (default: rho)");
     supports->add_flag("--no-branch-bonus", w.no_branch_bonus, "leave out the heuristic of equation (4)");
     add_length(supports, "--branch-bonus", w.branch_bonus, "its bonus (default: twice the nozzle, 4r)");

@@ -29,6 +29,9 @@ void Settings::check() const {
     if (perimeters < 1 || perimeters > 100) refuse("--perimeters must lie between 1 and 100");
     if (top_layers < 0 || top_layers > 1000) refuse("--top-layers must lie between 0 and 1000");
     if (bottom_layers < 0 || bottom_layers > 1000) refuse("--bottom-layers must lie between 0 and 1000");
+    within(wall_lines_longer, 0, 100000000, "--wall-lines-longer");
+    within(wall_lines_taller, 0, 100000000, "--wall-lines-taller");
+    if (wall_lines < 1 || wall_lines > 20) refuse("--wall-lines must lie between 1 and 20");
     if (valence_limit < 1) refuse("--valence-limit must be at least 1");
 }
 

@@ -62,6 +62,10 @@ struct Settings {
     int valence_limit = 4;             ///< the bonus counts for valence 1 .. valence_limit - 1
     std::uint64_t seed = 1;            ///< ties of Section 4.3
 
+    int wall_lines = 1;                ///< tracks side by side in walls that are longer or taller than the next two
+    Unit wall_lines_longer = 1000000;  ///< from the root to the farthest tip
+    Unit wall_lines_taller = 1000000;  ///< what of the wall stands on this layer
+
     /// First pass of detection: spacing of the candidate points, d / 4. The paper's pixel is 0.05 mm; what lies between the
     /// points is found exactly by the second pass whatever the pitch, and 0.1 mm needs less material on the cube and the low
     /// poly bunny, as much on the kitten, more on the moai.

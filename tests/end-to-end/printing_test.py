@@ -107,6 +107,20 @@ class Printing(unittest.TestCase):
         self.assertNotIn("thumbnail", self.gcode("--thumbnails", "none")[0])
         self.assertEqual(self.run_program("--thumbnails", "big").returncode, 2)
 
+    def test_long_walls_get_several_lines_and_are_held_up(self):
+        self.gcode()
+        one = json.loads((self.folder / "a.json").read_text())["totals"]
+        self.assertEqual(one["wide_trees"], 0)
+        self.assertGreater(one["slenderness"], 1)
+        for lines in (2, 3):
+            self.gcode("--wall-lines", lines, "--wall-lines-longer", 3)
+            totals = json.loads((self.folder / "a.json").read_text())["totals"]
+            self.assertGreater(totals["wide_trees"], 0)
+            self.assertGreater(totals["support_printed_length_mm"], 1.3 * one["support_printed_length_mm"])
+            self.assertLess(totals["slenderness"], one["slenderness"])
+            judged = subprocess.run([PROGRAM, "verify", "a.gcode", "--inside"], cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(judged.returncode, 0, judged.stdout)
+
     def test_the_same_bytes_for_any_number_of_threads(self):
         options = ["--covers", "monotonic", "--seam", "nearest", "--brim", "2", "--printer", "cr-10"]
         texts = {self.gcode(*options, "--threads", n)[0] for n in (1, 2, 7)}

@@ -118,6 +118,7 @@ TEST_CASE("random solids end proved under random settings") {
         if (round % 3 == 2) job.settings.support_radius = 30000, job.settings.erosion_step = job.settings.straighten_step = 30000;
         if (round % 4 == 3) job.settings.sampling_pitch = 4000;
         if (round % 5 == 4) job.settings.propagation = Propagation::shrink, job.settings.order = Order::doubling, job.settings.trim = true;
+        if (round % 4 >= 2) job.settings.wall_lines = round % 4, job.settings.wall_lines_longer = job.settings.wall_lines_taller = 3 * units_per_mm;
         const RunReport report = generate(job);
         INFO("round " << round);
         CHECK(report.verdict.proved);

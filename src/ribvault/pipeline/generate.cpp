@@ -172,6 +172,10 @@ private:
         r.filament_mm = p.filament;
         for (double volume : p.volume) r.extruded_mm3 += volume;
         r.trees = static_cast<int>(num_vertices(swept.forest) - num_edges(swept.forest));
+        r.wide_trees = swept.stability.wide_trees;
+        const SlenderPlace& worst = swept.stability.worst;
+        r.slenderness = worst.ratio, r.slender_at = {to_mm(worst.at.x), to_mm(worst.at.y)};
+        r.slender_standing_mm = worst.standing / units_per_mm, r.slender_to_root_mm = worst.to_root / units_per_mm;
         r.closings = layer.closings;
 
         from = Time::now();

@@ -75,6 +75,11 @@ std::string summary(const RunReport& r, const Job& job) {
     print(text, "; %.2f m of filament\n", r.totals.filament_mm / 1000);
     print(text, "print     about %.0f min; %ld travels, %.1f m, %ld retractions\n", r.totals.print_seconds / 60, r.totals.travels,
           r.totals.travel_mm / 1000, r.totals.retractions);
+    if (r.totals.slenderness > 0) {
+        const LayerReport& l = r.layers[static_cast<std::size_t>(r.totals.slenderest_layer)];
+        print(text, "walls     most slender on layer %d at (%.1f, %.1f) mm: %.1f mm high, %.1f mm from a root, ratio %.0f\n", l.layer,
+              l.slender_at[0], l.slender_at[1], l.slender_standing_mm, l.slender_to_root_mm, l.slenderness);
+    }
     if (r.totals.thin_places > 0)
         print(text, "warning   %ld places are too narrow for a track and not printed (%.2f mm2 in all); the report says on which layers\n",
               r.totals.thin_places, r.totals.thin_area_mm2);

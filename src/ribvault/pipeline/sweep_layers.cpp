@@ -10,6 +10,7 @@
 
 #include "ribvault/error.hpp"
 #include "ribvault/print/shell_paths.hpp"
+#include "ribvault/print/wide_walls.hpp"
 #include "ribvault/slice/outside.hpp"
 #include "ribvault/vault/next_layer.hpp"
 
@@ -178,7 +179,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
                 token->swept = std::move(previous);
                 token->below_swept = std::make_shared<const LayerMaterial>(token->material);
                 previous = std::make_shared<SweptLayer>(SweptLayer{
-                    std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), supports.blocked, {}, nullptr});
+                    std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), supports.blocked, supports.stability, {}, nullptr});
             } else if (token->slice_index == last && previous) {
                 for (auto [e, end] = edges(previous->forest); e != end; ++e) previous->forest[*e].first_layer = true;
                 token->swept = std::move(previous);
@@ -191,6 +192,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
         if (!token->swept) return token;
         holding.measure([&] {
             const LayerMaterial& material = token->swept->material;
+            append_wide_walls(token->swept->forest, material.cavity->region, settings, *material.shell);
             token->swept->held = hold_print(std::move(*material.shell), token->swept->forest, printed_above.get(), settings, material.outside.get());
             token->swept->printed_above = std::move(printed_above);
             printed_above = token->swept->held.printed;

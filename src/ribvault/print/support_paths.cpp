@@ -5,6 +5,7 @@
 #include <string>
 
 #include "ribvault/error.hpp"
+#include "ribvault/print/wide_walls.hpp"
 
 namespace ribvault {
 namespace {
@@ -186,6 +187,7 @@ void append_support_paths(const SupportForest& forest, const Settings& settings,
     for (Vertex v = 0; v < num_vertices(forest); ++v) {
         if (f.seen[v] || !forest[v].root) continue;
         hang_from_root(f, v, plan.layer);
+        if (!prints_centre_line(forest[v], settings)) continue;
         if (out_degree(v, forest) == 0)
             plan.tracks.push_back({{{kind_of(forest[v]), settings.nozzle, false, {f.at(v)}}}, Entry::fixed, no_stop});
         else

@@ -34,6 +34,8 @@ void sum_up(RunReport& report) {
         t.detours += layer.detours;
         t.print_seconds += layer.print_seconds;
         t.gaps += layer.gaps;
+        t.wide_trees += layer.wide_trees;
+        if (layer.slenderness > t.slenderness) t.slenderness = layer.slenderness, t.slenderest_layer = layer.layer;
         t.closed_gaps += layer.closed_gaps;
         t.patches += layer.patches;
         t.patch_length_mm += layer.patch_length_mm;

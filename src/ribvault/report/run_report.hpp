@@ -41,6 +41,10 @@ struct LayerReport {
     int detours = 0;                 ///< travels that go around to stay inside the shell
     double print_seconds = 0;        ///< estimated, acceleration-limited
     int trees = 0;           ///< connected components of S_i
+    int wide_trees = 0;      ///< of these, printed with several tracks side by side
+    double slenderness = 0;  ///< greatest free height over width of its walls (vault/wall_stability.hpp)
+    double slender_standing_mm = 0, slender_to_root_mm = 0;  ///< there: the wall's height above the layer, the way to a root
+    std::array<double, 2> slender_at{0, 0};                  ///< there, mm
     LayerVerdict verdict;    ///< equation (2) for this layer over the one below; layer 0 lies on the bed
     PrintVerdict print;      ///< the same for what is extruded
     int closed_gaps = 0;     ///< branches printed up to their junction because a gap would have let something above hang
@@ -73,6 +77,9 @@ struct RunTotals {
     long retractions = 0;
     long detours = 0;
     double print_seconds = 0;
+    double slenderness = 0;     ///< the greatest of all layers
+    int slenderest_layer = 0;   ///< the lowest layer that has it; 0 without walls
+    long wide_trees = 0;
     long gaps = 0;
     long closed_gaps = 0;
     long patches = 0;

@@ -63,7 +63,10 @@ public:
 
 private:
     std::size_t vertex(std::size_t v) {
-        if (vertex_[v] < 0) vertex_[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{above_[v].at, false}, result_.forest));
+        if (vertex_[v] < 0) {
+            const SupportVertex& was = above_[v];
+            vertex_[v] = static_cast<std::int64_t>(add_vertex({.at = was.at, .wide = was.wide, .standing = was.standing}, result_.forest));
+        }
         return static_cast<std::size_t>(vertex_[v]);
     }
 
@@ -102,23 +105,28 @@ private:
                 if (k == meetings_.size() && inside_[b]) anchor(b);
                 continue;
             }
-            const std::size_t va = k == 0 && inside_[a] ? vertex(a) : root(from, k <= 1 ? a : no_vertex);
-            const std::size_t vb = k == meetings_.size() && inside_[b] ? vertex(b) : root(to, k + 1 >= meetings_.size() ? b : no_vertex);
+            const auto new_root = [&](Point p, bool at_end, std::size_t v) {
+                return root(vertex_between(above_[a], above_[b], p), at_end ? v : no_vertex);
+            };
+            const std::size_t va = k == 0 && inside_[a] ? vertex(a) : new_root(from, k <= 1, a);
+            const std::size_t vb = k == meetings_.size() && inside_[b] ? vertex(b) : new_root(to, k + 1 >= meetings_.size(), b);
             add(va, vb, index);
             if (shell_holds_tracks_) result_.inherited.push_back({from, to});
         }
     }
 
-    /// A new root at p; the place of the old root v is kept when it is still one, so that walls above each other align.
-    std::size_t root(Point p, std::size_t v) {
-        if (!boundary_.rooted) return add_vertex(SupportVertex{place_root(p, boundary_)}, result_.forest);
-        if (v != no_vertex && above_[v].root && !inside_[v] &&
-            squared_length(above_[v].at - p) <= root_tolerance * root_tolerance)
-            return add_vertex(SupportVertex{above_[v].at, true}, result_.forest);
-        return add_vertex(SupportVertex{place_root(p, boundary_), true}, result_.forest);
+    /// A new root; the place of the old root v is kept when it is still one, so that walls above each other align.
+    std::size_t root(SupportVertex vertex, std::size_t v) {
+        const bool stays = boundary_.rooted && v != no_vertex && above_[v].root && !inside_[v] &&
+                           squared_length(above_[v].at - vertex.at) <= root_tolerance * root_tolerance;
+        vertex.root = boundary_.rooted;
+        vertex.at = stays ? above_[v].at : place_root(vertex.at, boundary_);
+        return add_vertex(vertex, result_.forest);
     }
 
     bool at_boundary(Point p) const { return boundary_.edges.nearest(p).distance.value() <= root_tolerance * root_tolerance; }
+
+    void make_root(std::size_t v, Point at) { result_.forest[v].at = at, result_.forest[v].root = true; }
 
     /// The wall between v and the shell is too short to keep: v itself becomes a root, so that its tree still has one.
     void anchor(std::size_t v) {
@@ -128,7 +136,7 @@ private:
         }
         const Point at = above_[v].at;
         const Segment& edge = boundary_.edges.segments()[boundary_.edges.nearest(at).index];
-        result_.forest[vertex(v)] = {place_root(nearest_point(at, edge), boundary_), true};
+        make_root(vertex(v), place_root(nearest_point(at, edge), boundary_));
     }
 
     /// Says no, for now, when v's own tree stands in the way. In the end such a root is given up, for its wall would cross the
@@ -148,13 +156,12 @@ private:
                                    at.y + round_to_lattice(static_cast<double>(at.y - from.y) / l * reach)}};
             find_meetings(ray, boundary_, meetings_);
             if (!meetings_.empty() && !crosses_walls({at, meetings_.front().on(ray)}, own)) {
-                forest[own].at = place_root(meetings_.front().on(ray), boundary_);
-                forest[own].root = true;
+                make_root(own, place_root(meetings_.front().on(ray), boundary_));
                 return true;
             }
         }
         if (squared_length(foot - at) <= root_tolerance * root_tolerance) {
-            forest[own] = {foot, true};
+            make_root(own, foot);
             return true;
         }
         const std::vector<char> own_tree = tree_of(own);
@@ -163,7 +170,7 @@ private:
             for (std::size_t w = 0; w < own_tree.size(); ++w)
                 if (own_tree[w] && forest[w].root) return true;
         }
-        if (!join_wall({at, foot}, own, own_tree)) add(add_vertex(SupportVertex{foot, true}, forest), own, -1);
+        if (!join_wall({at, foot}, own, own_tree)) add(add_vertex({.at = foot, .root = true, .wide = forest[own].wide}, forest), own, -1);
         return true;
     }
 
@@ -220,7 +227,7 @@ private:
             const std::int32_t origin = result_.origin[static_cast<std::size_t>(nearest)];
             result_.origin.erase(result_.origin.begin() + nearest);
             remove_edge(met, forest);
-            joint = add_vertex(SupportVertex{at, false}, forest);
+            joint = add_vertex(vertex_between(forest[a], forest[b], at), forest);
             add(a, joint, origin);
             add(joint, b, origin);
         }

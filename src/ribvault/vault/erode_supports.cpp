@@ -78,7 +78,8 @@ ErodedSupports erode_supports(const SupportForest& forest, Unit step, Unit pilla
     std::vector<std::int64_t> vertex(n, -1);
     const auto keep = [&](std::size_t v) {
         if (vertex[v] < 0) {
-            vertex[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{place[v], forest[v].root, forest[v].free}, result.forest));
+            vertex[v] = static_cast<std::int64_t>(add_vertex(forest[v], result.forest));
+            result.forest[static_cast<std::size_t>(vertex[v])].at = place[v];
             result.pinned.push_back(lost_branch[v]);
         }
         return static_cast<std::size_t>(vertex[v]);

@@ -87,7 +87,7 @@ std::size_t GrowingSupports::split(std::uint32_t wall, Point near) {
     if (at == forest_[old.b].at) return old.b;
     walls_[wall].alive = false;
     remove_edge(old.a, old.b, forest_);
-    const std::size_t v = add_vertex(SupportVertex{at, false}, forest_);
+    const std::size_t v = add_vertex(vertex_between(forest_[old.a], forest_[old.b], at), forest_);
     connect(old.a, v);
     connect(v, old.b);
     return v;
@@ -200,13 +200,13 @@ void GrowingSupports::add_wall(Point at) {
         return add_pillar(p);
     } else {
         const Point foot = nearest_point(p, boundary_.edges.segments()[shell.index]);
-        to = add_vertex(SupportVertex{place_root(foot, boundary_), true}, forest_);
+        to = add_vertex(SupportVertex{.at = place_root(foot, boundary_), .root = true}, forest_);
     }
     add_tip(p, to);
 }
 
 void GrowingSupports::add_tip(Point p, std::size_t joint) {
-    const std::size_t tip = add_vertex(SupportVertex{p, false}, forest_);
+    const std::size_t tip = add_vertex(SupportVertex{.at = p}, forest_);
     connect(tip, joint);
     new_walls_.push_back({tip, joint, static_cast<std::uint32_t>(walls_.size() - 1)});
 }

@@ -41,6 +41,7 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         CopiedSupports copied = copy_supports(above, boundary, shell_holds_tracks);
         if (cavity.outside) root_trees(copied.forest);
         if (cavity.outside && settings.pillars) free_where_cheaper(copied.forest, cavity.layer, settings.erosion_step, settings.pillar_length);
+        for (auto [v, end] = vertices(copied.forest); v != end; ++v) ++copied.forest[*v].standing;
         SupportForest propagated;
         const auto note_continued = [&](const std::vector<char>& survives) {
             for (std::size_t e = 0; e < copied.origin.size(); ++e)
@@ -67,6 +68,10 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         if (cavity.walls) result.unsupported = within_reach(result.unsupported, *cavity.walls, settings);
         const std::uint64_t layer_seed = settings.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(cavity.layer);
         result.forest = grow_supports(std::move(propagated), result.unsupported, boundary, layer_seed, settings);
+        if (!cavity.outside) {
+            result.stability.wide_trees = mark_wide_trees(result.forest, settings);
+            result.stability.worst = most_slender(result.forest, settings);
+        }
     }
     if (cavity.outside)
         for (auto [v, end] = vertices(result.forest); v != end; ++v) result.forest[*v].outside = true;

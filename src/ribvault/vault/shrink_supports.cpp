@@ -28,7 +28,7 @@ class Shrinker {
 public:
     Shrinker(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length)
         : boundary_(boundary), step_(step), grid_(bounds(forest), units_per_mm, step + 2) {
-        for (auto [v, end] = vertices(forest); v != end; ++v) nodes_.push_back({forest[*v].at, forest[*v].root, {forest[*v].at}, {}});
+        for (auto [v, end] = vertices(forest); v != end; ++v) nodes_.push_back({forest[*v].at, forest[*v].root, {forest[*v].at}, {}, forest[*v]});
         for (auto [e, end] = edges(forest); e != end; ++e) add_wall(source(*e, forest), target(*e, forest));
         input_walls_ = walls_.size();
         keep_pillars(forest, static_cast<double>(pillar_length));
@@ -52,6 +52,7 @@ private:
         bool root;
         std::vector<Point> from;  ///< where the points that are here now were: all within step
         std::vector<std::uint32_t> walls;
+        SupportVertex was;  ///< for what else is known of it
         bool gone = false;
         bool free = false;   ///< a root away from the shell
         bool stays = false;  ///< of a free tree with no more track than a pillar
@@ -219,6 +220,7 @@ private:
         }
         for (const Point f : nodes_[v].from)
             if (std::find(nodes_[u].from.begin(), nodes_[u].from.end(), f) == nodes_[u].from.end()) nodes_[u].from.push_back(f);
+        nodes_[u].was.wide = nodes_[u].was.wide || nodes_[v].was.wide;
         nodes_[v].gone = true;
         nodes_[v].walls.clear();
     }
@@ -283,8 +285,9 @@ private:
             if (p == nodes_[a].at || p == nodes_[b].at) continue;
             // Two tips in the same place, each free to run back from there.
             const std::size_t tip_a = nodes_.size();
-            nodes_.push_back({p, false, {p}, {}});
-            nodes_.push_back({p, false, {p}, {}});
+            const SupportVertex cut = vertex_between(nodes_[a].was, nodes_[b].was, p);
+            nodes_.push_back({p, false, {p}, {}, cut});
+            nodes_.push_back({p, false, {p}, {}, cut});
             std::erase(nodes_[b].walls, static_cast<std::uint32_t>(w));
             walls_[w].a = a, walls_[w].b = tip_a;
             nodes_[tip_a].walls.push_back(static_cast<std::uint32_t>(w));
@@ -334,7 +337,7 @@ private:
             }
             if (!free) continue;
             const std::size_t joint = nodes_.size();
-            nodes_.push_back({p, false, {nodes_[v].at}, {w1, w2}});
+            nodes_.push_back({p, false, {nodes_[v].at}, {w1, w2}, vertex_between(nodes_[v].was, nodes_[v].was, p)});
             for (const std::uint32_t w : {w1, w2}) {
                 (walls_[w].a == v ? walls_[w].a : walls_[w].b) = joint;
                 std::erase(nodes_[v].walls, w);
@@ -347,8 +350,11 @@ private:
         ShrunkSupports result;
         std::vector<std::int64_t> vertex(nodes_.size(), -1);
         const auto keep = [&](std::size_t v) {
-            if (vertex[v] < 0)
-                vertex[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{nodes_[v].at, nodes_[v].root, nodes_[v].free}, result.forest));
+            if (vertex[v] < 0) {
+                vertex[v] = static_cast<std::int64_t>(add_vertex(nodes_[v].was, result.forest));
+                SupportVertex& kept = result.forest[static_cast<std::size_t>(vertex[v])];
+                kept.at = nodes_[v].at, kept.root = nodes_[v].root, kept.free = nodes_[v].free;
+            }
             return static_cast<std::size_t>(vertex[v]);
         };
         for (const Wall& w : walls_)

@@ -139,8 +139,10 @@ private:
     StraightenedSupports finish() {
         std::vector<std::int64_t> vertex(place_.size(), -1);
         const auto keep = [&](std::size_t v) {
-            if (vertex[v] < 0)
-                vertex[v] = static_cast<std::int64_t>(add_vertex(SupportVertex{place_[v], forest_[v].root, forest_[v].free}, result_.forest));
+            if (vertex[v] < 0) {
+                vertex[v] = static_cast<std::int64_t>(add_vertex(forest_[v], result_.forest));
+                result_.forest[static_cast<std::size_t>(vertex[v])].at = place_[v];
+            }
             return static_cast<std::size_t>(vertex[v]);
         };
         // Two vertices that moved to the same lattice point become one: their wall has no length.

@@ -3,16 +3,23 @@
 
 #include <boost/graph/adjacency_list.hpp>
 
+#include <cstdint>
+
 #include "ribvault/exact/lattice.hpp"
 
 namespace ribvault {
 
 struct SupportVertex {
     Point at;
-    bool root = false;  ///< lies on the shell B_i (within two lattice units of the boundary of C_i, on the shell's side), or is free
-    bool free = false;  ///< a root away from the shell: its tree stands on the layer below alone (vault/free_trees.hpp)
+    bool root = false;     ///< lies on the shell B_i (within two lattice units of the boundary of C_i, on the shell's side), or is free
+    bool free = false;     ///< a root away from the shell: its tree stands on the layer below alone (vault/free_trees.hpp)
     bool outside = false;  ///< its tree stands outside the slice: an external support
+    bool wide = false;     ///< its tree is printed with settings.wall_lines tracks side by side, on this layer and all below
+    std::int32_t standing = 0;  ///< so many layers of the wall stand on this place, this one not counted
 };
+
+/// A vertex that is no root in the wall between a and b, at a place on it.
+SupportVertex vertex_between(const SupportVertex& a, const SupportVertex& b, Point at);
 
 struct SupportEdge {
     /// The branch that starts with this edge does not continue on the layer below: this is the first layer on which it is

@@ -1,0 +1,13 @@
+#include "ribvault/vault/support_forest.hpp"
+
+#include <algorithm>
+
+namespace ribvault {
+
+SupportVertex vertex_between(const SupportVertex& a, const SupportVertex& b, Point at) {
+    const double whole = length(b.at - a.at), share = whole > 0 ? std::min(1.0, length(at - a.at) / whole) : 0;
+    const auto standing = static_cast<std::int32_t>(a.standing + share * (b.standing - a.standing));
+    return {.at = at, .wide = a.wide || b.wide, .standing = standing};
+}
+
+}  // namespace ribvault

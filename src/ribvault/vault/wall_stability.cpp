@@ -1,0 +1,100 @@
+#include "ribvault/vault/wall_stability.hpp"
+
+#include <boost/graph/connected_components.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+#include <vector>
+
+namespace ribvault {
+namespace {
+
+double standing_height(const SupportVertex& v, const Settings& settings) {
+    return static_cast<double>(v.standing + 1) * static_cast<double>(settings.layer_height);
+}
+
+/// One wall between two vertices: what stands on it changes evenly along it, the way to a root rises to a peak and falls.
+class WallProfile {
+public:
+    WallProfile(const SupportVertex& a, const SupportVertex& b, double root_a, double root_b, const Settings& settings)
+        : a_(a.at), b_(b.at), l_(length(b.at - a.at)), root_a_(root_a), root_b_(root_b), height_a_(standing_height(a, settings)),
+          height_b_(standing_height(b, settings)),
+          width_(static_cast<double>(settings.nozzle) * (a.wide ? settings.wall_lines : 1)) {}
+
+    SlenderPlace worst() const {
+        const double peak = std::clamp((root_b_ + l_ - root_a_) / 2, 0.0, l_), slope = l_ > 0 ? (height_b_ - height_a_) / l_ : 0;
+        SlenderPlace worst;
+        const auto look = [&](double t) {
+            if (!(t >= 0 && t <= l_)) return;
+            const SlenderPlace place = at(t);
+            if (place.ratio > worst.ratio) worst = place;
+        };
+        for (const double t : {0.0, peak, l_}) look(t);
+        look((height_a_ - root_a_) / (1 - slope));         // height_a + slope t = root_a + t
+        look((root_b_ + l_ - height_a_) / (slope + 1));    // height_a + slope t = root_b + l - t
+        return worst;
+    }
+
+private:
+    SlenderPlace at(double t) const {
+        const double share = l_ > 0 ? t / l_ : 0;
+        SlenderPlace place;
+        place.standing = height_a_ + share * (height_b_ - height_a_);
+        place.to_root = std::min(root_a_ + t, root_b_ + l_ - t);
+        place.ratio = std::min(place.standing, place.to_root) / width_;
+        place.at = a_ + Point{round_to_lattice(share * static_cast<double>(b_.x - a_.x)), round_to_lattice(share * static_cast<double>(b_.y - a_.y))};
+        return place;
+    }
+
+    Point a_, b_;
+    double l_, root_a_, root_b_, height_a_, height_b_, width_;
+};
+
+/// For every vertex the way along its tree to the nearest root, in lattice units; infinite in a tree without roots.
+std::vector<double> distances_to_roots(const SupportForest& forest) {
+    std::vector<double> distance(num_vertices(forest), std::numeric_limits<double>::infinity());
+    using Entry = std::pair<double, std::size_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (std::size_t v = 0; v < distance.size(); ++v)
+        if (forest[v].root) queue.push({distance[v] = 0, v});
+    while (!queue.empty()) {
+        const auto [d, v] = queue.top();
+        queue.pop();
+        if (d > distance[v]) continue;
+        for (auto [w, end] = adjacent_vertices(v, forest); w != end; ++w)
+            if (const double way = d + length(forest[*w].at - forest[v].at); way < distance[*w]) queue.push({distance[*w] = way, *w});
+    }
+    return distance;
+}
+
+}  // namespace
+
+SlenderPlace most_slender(const SupportForest& forest, const Settings& settings) {
+    const std::vector<double> to_root = distances_to_roots(forest);
+    SlenderPlace worst;
+    for (auto [e, end] = edges(forest); e != end; ++e) {
+        const std::size_t a = source(*e, forest), b = target(*e, forest);
+        const SlenderPlace place = WallProfile(forest[a], forest[b], to_root[a], to_root[b], settings).worst();
+        if (place.ratio > worst.ratio) worst = place;
+    }
+    return worst;
+}
+
+int mark_wide_trees(SupportForest& forest, const Settings& settings) {
+    if (settings.wall_lines < 2) return 0;
+    const std::vector<double> to_root = distances_to_roots(forest);
+    std::vector<std::size_t> tree(num_vertices(forest));
+    if (!tree.empty()) connected_components(forest, tree.data());
+    std::vector<char> wide(num_vertices(forest), 0);
+    for (std::size_t v = 0; v < tree.size(); ++v)
+        if (forest[v].wide || to_root[v] > static_cast<double>(settings.wall_lines_longer) ||
+            standing_height(forest[v], settings) > static_cast<double>(settings.wall_lines_taller))
+            wide[tree[v]] = 1;
+    for (std::size_t v = 0; v < tree.size(); ++v) forest[v].wide = wide[tree[v]] != 0;
+    for (auto [e, end] = edges(forest); e != end; ++e)
+        if (forest[source(*e, forest)].wide) forest[*e].to_junction = true;
+    return static_cast<int>(std::count(wide.begin(), wide.end(), 1));
+}
+
+}  // namespace ribvault

@@ -1,0 +1,30 @@
+// How steady the walls of a layer stand, and which of them are printed with several tracks side by side (beyond the paper).
+#pragma once
+
+#include "ribvault/settings.hpp"
+#include "ribvault/vault/support_forest.hpp"
+
+namespace ribvault {
+
+/// Where a wall sways most easily. A place of a wall is held from below by what the wall stands on and from the side by the
+/// nearest root; the nearer of the two decides.
+struct SlenderPlace {
+    double ratio = 0;     ///< free height over width: min(standing, to root) / width
+    double standing = 0;  ///< lattice units: height of the wall from the bottom of this layer up
+    double to_root = 0;   ///< lattice units: along the wall to the nearest root
+    Point at;
+};
+struct WallStability {
+    SlenderPlace worst;
+    int wide_trees = 0;  ///< printed with several tracks side by side
+};
+
+/// The place of the greatest ratio; all zero for a forest without walls. Exact up to double arithmetic.
+SlenderPlace most_slender(const SupportForest& forest, const Settings& settings);
+
+/// Marks the trees (SupportVertex::wide; their walls have no gaps at junctions, SupportEdge::to_junction) that reach farther from their roots than settings.wall_lines_longer, that carry more than
+/// settings.wall_lines_taller, or that grew out of such a tree. Does nothing with one line a wall.
+/// Returns how many trees are marked then.
+int mark_wide_trees(SupportForest& forest, const Settings& settings);
+
+}  // namespace ribvault

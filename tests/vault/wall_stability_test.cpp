@@ -1,0 +1,72 @@
+// How slender walls are, and which of them are printed with several tracks.
+#include "ribvault/vault/wall_stability.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace ribvault;
+
+namespace {
+
+constexpr Unit mm = units_per_mm;
+
+/// One wall of 10 mm along x; `standing`: layers of wall on its root and on its other end.
+SupportForest wall(bool second_root, std::int32_t on_root, std::int32_t on_end) {
+    SupportForest forest;
+    const auto root = add_vertex({.at = {0, 0}, .root = true, .standing = on_root}, forest);
+    const auto end = add_vertex({.at = {10 * mm, 0}, .root = second_root, .standing = on_end}, forest);
+    add_edge(root, end, forest);
+    return forest;
+}
+
+}  // namespace
+
+TEST_CASE("a tall wall sways at its tip, where the way to the root is longest") {
+    const SlenderPlace worst = most_slender(wall(false, 99, 99), {});  // 20 mm high
+    CHECK(worst.ratio == Approx(10 / 0.4));
+    CHECK(worst.at == Point{10 * mm, 0});
+    CHECK(worst.standing == Approx(20.0 * mm));
+    CHECK(worst.to_root == Approx(10.0 * mm));
+}
+
+TEST_CASE("between two roots a wall sways in the middle") {
+    const SlenderPlace worst = most_slender(wall(true, 99, 99), {});
+    CHECK(worst.ratio == Approx(5 / 0.4));
+    CHECK(worst.at == Point{5 * mm, 0});
+}
+
+TEST_CASE("a low wall is held from below") { CHECK(most_slender(wall(false, 4, 4), {}).ratio == Approx(1 / 0.4)); }
+
+TEST_CASE("a wall that is high at the root and low at the tip sways where both are equal") {
+    // 10.2 mm at the root, 0.2 mm at the tip: 10.2 - t = t.
+    const SlenderPlace worst = most_slender(wall(false, 50, 0), {});
+    CHECK(worst.to_root == Approx(5.1 * mm));
+    CHECK(worst.ratio == Approx(5.1 / 0.4));
+}
+
+TEST_CASE("a forest without walls is not slender") { CHECK(most_slender({}, {}).ratio == 0); }
+
+TEST_CASE("long trees, tall trees and what grew out of them are wide, others are not") {
+    Settings settings;
+    SupportForest forest = wall(false, 0, 0);
+    CHECK(mark_wide_trees(forest, settings) == 0);  // one line a wall
+    settings.wall_lines = 2;
+    CHECK(mark_wide_trees(forest, settings) == 0);  // exactly 10 mm is not longer
+    settings.wall_lines_longer = 10 * mm - 1;
+    CHECK(mark_wide_trees(forest, settings) == 1);
+    CHECK((forest[0].wide && forest[1].wide && forest[*edges(forest).first].to_junction));
+    settings.wall_lines_longer = 100 * mm;
+    CHECK(mark_wide_trees(forest, settings) == 1);  // it was
+    forest = wall(false, 50, 0);
+    CHECK(mark_wide_trees(forest, settings) == 1);  // 10.2 mm stand on its root
+    forest = wall(false, 49, 0);
+    CHECK(mark_wide_trees(forest, settings) == 0);
+    CHECK(most_slender(wall(false, 99, 99), settings).ratio == Approx(25));
+}
+
+TEST_CASE("a vertex between two others carries what stands there, and is wide when one of them is") {
+    const SupportVertex a{.at = {0, 0}, .root = true, .wide = true, .standing = 10}, b{.at = {10 * mm, 0}, .standing = 20};
+    const SupportVertex middle = vertex_between(a, b, {5 * mm, 0});
+    CHECK(middle.standing == 15);
+    CHECK(middle.wide);
+    CHECK_FALSE(middle.root);
+}
