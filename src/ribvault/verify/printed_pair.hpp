@@ -1,6 +1,7 @@
 // Two printed layers prepared for the verifier, and what it finds open on one track. Heavy: include in .cpp files only.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "ribvault/verify/greatest_distance.hpp"
@@ -27,13 +28,14 @@ struct OpenPart {
     std::optional<CentreGap> gap;       ///< on the centre line
     std::optional<Uncovered> found;     ///< else: in the local problem of the part
     std::optional<PrintedTrack> piece;  ///< M of that problem when it is not all of the track: the part itself
+    std::shared_ptr<const LocalProblem> local = nullptr;  ///< that problem; alive as long as `found`, which points into it
 };
 
 /// The part of the stretch as a track of its own: its stadium holds all of the track's stadium beside the stretch, and
 /// no more than the track's.
 PreparedTrack part_of(const PrintedPair& pair, const OpenPart& part);
 
-/// The problem of the part's track near it. Deterministic. Under upward rounding.
+/// The problem of the part's track near it. Under upward rounding.
 void build_part_problem(const PrintedPair& pair, const OpenPart& part, LocalProblem& local);
 
 /// Whether the point is in the stadium of the track above, and whether it is in none of those below dilated by ρ.

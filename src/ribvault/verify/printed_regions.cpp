@@ -86,9 +86,7 @@ UnsupportedRegion describe(const PrintedPair& pair, const std::vector<const Open
         if (p->gap) {
             witness = point_of_gap(pair.upper[static_cast<std::size_t>(p->track)], *p->gap);
         } else {
-            LocalProblem local;
-            build_part_problem(pair, *p, local);
-            witness = witness_from(pair, p->track, local, *p->found);
+            witness = witness_from(pair, p->track, *p->local, *p->found);
         }
     }
     region.witness_certified = witness.has_value();

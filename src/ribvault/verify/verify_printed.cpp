@@ -137,9 +137,10 @@ std::vector<OpenPart> Judge::parts_of(const std::vector<Stretch>& gaps, const st
 }
 
 bool Judge::uncovered(OpenPart& part) {
-    LocalProblem local;
-    build_part_problem(pair_, part, local);
-    part.found = find_uncovered(local.problem, local.window, verdict_.stages);
+    const auto local = std::make_shared<LocalProblem>();
+    build_part_problem(pair_, part, *local);
+    part.found = find_uncovered(local->problem, local->window, verdict_.stages);
+    if (part.found) part.local = local;
     return part.found.has_value();
 }
 
