@@ -6,7 +6,6 @@ Usage: experiments/benchmark.py [--rounds 5] [--models FOLDER] [--json FILE]; sc
 a print of ours is not proved.
 """
 import argparse
-import dataclasses
 import json
 import pathlib
 import shutil
@@ -47,10 +46,8 @@ def files(chosen, folder):
         if not model.file:
             print(f"{model.title}: its file is missing (--models)", file=sys.stderr)
             continue
-        options = dict(zip(model.placement[::2], model.placement[1::2]))
         if name in HEIGHTS:
-            options["--height"] = HEIGHTS[name]
-        model = dataclasses.replace(model, placement=tuple(x for pair in options.items() for x in pair))
+            model = model.at_height(HEIGHTS[name])
         yield model, race.placed(model, folder)
 
 

@@ -1,5 +1,4 @@
 """Table 6: material and time of external supports; ours beside PrusaSlicer's grid and snug supports and CuraEngine's tree supports."""
-import dataclasses
 import math
 
 from lab.runs import Run
@@ -8,12 +7,6 @@ from lab.tables import Table
 PROGRAMS = (("supports_own", (), "ribvault"), ("supports_own", ("--support-gap", "0.2"), "ribvault, gap 0.2 mm"), ("supports_grid", (), "PrusaSlicer, grid"),
             ("supports_snug", (), "PrusaSlicer, snug"), ("supports_tree", (), "CuraEngine, tree"))
 MESHES = ("bunny00", "hand", "elephant", "bull", "armadillo", "camel", "elk", "bear", "knot", "dino", "anchor", "fandisk")
-
-
-def at_50_mm(model):
-    options = dict(zip(model.placement[::2], model.placement[1::2]))
-    options["--height"] = "50"
-    return dataclasses.replace(model, placement=tuple(x for pair in options.items() for x in pair))
 
 
 def added(with_supports, without):
@@ -36,7 +29,7 @@ def build(lab):
                    note="With the gap nothing within 0.4 mm (g + r) of the object is held nearer than that where a support would have to stand in the gap.")
     rows = [(f"{row['model']} (the paper: {row['ours_cm']} cm, {row['ours_min']} min)", model) for row, model, real in lab.paper_models("table6_external") if model and real]
     rows += [(lab.registry[name].title, lab.registry[name]) for name in ("nail_solid", "bridge_solid")]
-    rows += [(f"{lab.registry[name].title}, 50 mm", at_50_mm(lab.registry[name])) for name in MESHES if lab.registry[name].file]
+    rows += [(f"{lab.registry[name].title}, 50 mm", lab.registry[name].at_height("50")) for name in MESHES if lab.registry[name].file]
     for title, model in rows:
         runs = [Run(kind, model, settings) for kind, settings, _ in PROGRAMS]
         support = [lab.value(run, "supported.support_mm3") for run in runs]

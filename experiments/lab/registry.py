@@ -27,9 +27,19 @@ class Model:
     origin: str = "missing"  # what the file is: the paper's model, a stand-in, built in
     stand_in: str | None = None
 
+    def _options(self):
+        return dict(zip(self.placement[::2], self.placement[1::2]))
+
+    def _placed(self, options, *more):
+        return dataclasses.replace(self, placement=(*(x for pair in options.items() for x in pair), *more))
+
+    def at_height(self, mm):
+        """Scaled to this height."""
+        return self._placed({**self._options(), "--height": mm})
+
     def scaled(self, factor):
         """Larger or smaller than placed."""
-        options = dict(zip(self.placement[::2], self.placement[1::2]))
+        options = self._options()
         if "--height" in options:
             options["--height"] = f"{float(options['--height']) * factor:.9g}"
         else:
@@ -37,7 +47,7 @@ class Model:
             # a fraction stays one
             options["--scale"] = (f"{factor:.9g}" if scale == "1" else
                                   f"{factor:.9g}/{scale[2:]}" if scale.startswith("1/") else f"{float(scale) * factor:.9g}")
-        return dataclasses.replace(self, placement=(*(x for pair in options.items() for x in pair), *LARGE_BED))
+        return self._placed(options, *LARGE_BED)
 
 
 def paper_rows(table):

@@ -4,26 +4,17 @@ import math
 import os
 import pathlib
 import re
-import struct
 import subprocess
+import sys
 import tempfile
 import unittest
 
 PROGRAM = os.environ["RIBVAULT"]
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "experiments"))
+from make_solids import box, write_stl  # noqa: E402
+
 CUBE = ROOT / "experiments/models/cube20.stl"
-
-
-def box(lo, hi):
-    x, y, z = zip(lo, hi)
-    c = [(x[i & 1], y[i >> 1 & 1], z[i >> 2]) for i in range(8)]
-    faces = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
-    return [(c[a], c[b], c[d]) for q in faces for a, b, d in ((q[0], q[1], q[2]), (q[0], q[2], q[3]))]
-
-
-def write_stl(path, triangles):
-    path.write_bytes(b"\0" * 80 + struct.pack("<I", len(triangles)) +
-                     b"".join(struct.pack("<12fH", 0, 0, 0, *(v for p in t for v in p), 0) for t in triangles))
 
 
 class External(unittest.TestCase):

@@ -23,6 +23,7 @@
 #include "ribvault/report/layer_shapes.hpp"
 #include "ribvault/report/layer_svg.hpp"
 #include "ribvault/report/write_mesh.hpp"
+#include "ribvault/vault/wall_stability.hpp"
 #include "ribvault/verify/gap_check.hpp"
 #include "ribvault/verify/verify_layer.hpp"
 
@@ -67,7 +68,8 @@ public:
 
         const auto finish = [&](const SweptLayer& layer, const LayerMaterial* below) { return std::shared_ptr<void>(finish_layer(slicer, layer, below)); };
         const auto collect = [&](const SweptLayer&, std::shared_ptr<void> output) { collect_layer(std::static_pointer_cast<LayerOutput>(output)); };
-        times_.merge(sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop, support_frame(mesh_, report_.placement, job_.settings)));
+        times_.merge(sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop,
+                                  job_.settings.outside() ? support_frame(mesh_, report_.placement, job_.settings) : Box()));
         times_.erase("finish");  // its parts are counted one by one
         if (waiting_) join(nullptr);
         times_["proof"] = 1e-9 * static_cast<double>(proof_), times_["paths"] = 1e-9 * static_cast<double>(paths_);
@@ -172,8 +174,8 @@ private:
         r.filament_mm = p.filament;
         for (double volume : p.volume) r.extruded_mm3 += volume;
         r.trees = static_cast<int>(num_vertices(swept.forest) - num_edges(swept.forest));
-        r.wide_trees = swept.stability.wide_trees;
-        const SlenderPlace& worst = swept.stability.worst;
+        r.wide_trees = wide_trees(swept.forest);
+        const SlenderPlace worst = most_slender(swept.forest, s);
         r.slenderness = worst.ratio, r.slender_at = {to_mm(worst.at.x), to_mm(worst.at.y)};
         r.slender_standing_mm = worst.standing / units_per_mm, r.slender_to_root_mm = worst.to_root / units_per_mm;
         r.closings = layer.closings;
@@ -204,8 +206,7 @@ private:
         std::vector<Segment> outside;
         for (const PlannedTrack& track : plan.tracks)
             for (const ToolPath& path : track.paths)
-                if (path.kind == TrackKind::external_support)
-                    for (std::size_t k = path.points.size() == 1 ? 0 : 1; k < path.points.size(); ++k) outside.push_back({path.points[k > 0 ? k - 1 : 0], path.points[k]});
+                if (path.kind == TrackKind::external_support) append_segments(path, outside);
         const std::optional<Segment> near = find_too_near(*slice.exact, outside, job_.settings.support_gap + job_.settings.nozzle / 2);
         if (!near) return;
         verdict.supported = false;

@@ -17,6 +17,7 @@ void ShapeOutputs::add(const LayerReport& layer, const std::string& shapes, cons
 }
 
 void ShapeOutputs::write(const RunReport& report) {
+    if (!layers_ && !page_) return;
     const std::string header = layers_header(report);
     if (layers_) {
         layers_->file.write(header + '\n');

@@ -179,7 +179,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
                 token->swept = std::move(previous);
                 token->below_swept = std::make_shared<const LayerMaterial>(token->material);
                 previous = std::make_shared<SweptLayer>(SweptLayer{
-                    std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), supports.blocked, supports.stability, {}, nullptr});
+                    std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), supports.blocked, {}, nullptr});
             } else if (token->slice_index == last && previous) {
                 for (auto [e, end] = edges(previous->forest); e != end; ++e) previous->forest[*e].first_layer = true;
                 token->swept = std::move(previous);

@@ -12,7 +12,7 @@
 #include "ribvault/settings.hpp"
 #include "ribvault/slice/cavity.hpp"
 #include "ribvault/slice/slice_mesh.hpp"
-#include "ribvault/vault/wall_stability.hpp"
+#include "ribvault/vault/support_forest.hpp"
 
 namespace ribvault {
 
@@ -33,7 +33,6 @@ struct SweptLayer {
     SupportForest forest;  ///< S_i, SupportEdge::first_layer set
     Region unsupported;    ///< what of layer i + 1 the walls copied from above and the shell did not hold up
     int blocked = 0;       ///< chains that could not be straightened without crossing a wall
-    WallStability stability;
     HeldLayer held;        ///< what is printed
     std::shared_ptr<const PrintedLayer> printed_above;  ///< on the layer above; nullptr: this is the top
 };

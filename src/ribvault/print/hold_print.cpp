@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/exact/point_location.hpp"
@@ -29,11 +30,7 @@ Point lattice(const std::array<Rational, 2>& p) {
 std::vector<Segment> segments_of(const LayerPlan& plan) {
     std::vector<Segment> segments;
     for (const PlannedTrack& track : plan.tracks)
-        for (const ToolPath& path : track.paths) {
-            const std::size_t n = path.points.size();
-            if (n == 1) segments.push_back({path.points[0], path.points[0]});
-            for (std::size_t i = 1; i < n + (path.closed && n > 1 ? 1 : 0); ++i) segments.push_back({path.points[i - 1], path.points[i % n]});
-        }
+        for (const ToolPath& path : track.paths) append_segments(path, segments);
     return segments;
 }
 
@@ -197,8 +194,7 @@ private:
         std::vector<Segment> loops;
         for (const PlannedTrack& track : shell_.tracks)
             for (const ToolPath& path : track.paths)
-                if (path.closed && path.kind == TrackKind::outer_perimeter)
-                    for (std::size_t i = 0, n = path.points.size(); i < n; ++i) loops.push_back({path.points[i], path.points[(i + 1) % n]});
+                if (path.closed && path.kind == TrackKind::outer_perimeter) append_segments(path, loops);
         const PointLocation outline(loops, units_per_mm / 2);
         const Unit step = settings_.support_radius - 2;
         const auto move = [&](Point p) {
@@ -254,20 +250,22 @@ private:
     }
 
     /// With a removal gap only where walls may.
-    bool may_stand_outside(const Segment& s) const {
+    bool may_stand_outside(const Segment& s) {
         if (!beside_ || !beside_->walls) return beside_ != nullptr;
-        const std::vector<Segment> edges = edges_of(*beside_->walls);
-        if (std::any_of(edges.begin(), edges.end(), [&](const Segment& e) { return segments_touch(e, s); })) return false;
-        return PointLocation(edges, units_per_mm).locate(s.a) == Side::inside;
+        const Place& walls = gap_places().walls;
+        Box box;
+        box.add(s.a), box.add(s.b);
+        bool crosses = false;
+        walls.edges.visit(box, [&](std::uint32_t k) { crosses = crosses || segments_touch(walls.edges.segments()[k], s); });
+        return !crosses && walls.location.locate(s.a) == Side::inside;
     }
 
     /// Within a removal gap patches are the object's: where its slice is too thin to be printed, they are printed, in pieces short
     /// enough to follow its outline. Says no when the stretch is not over such a place.
     bool patch_object(const Segment& hanging) {
         if (!beside_->walls) return false;
-        std::vector<Segment> outline = edges_of(beside_->region);
-        const NearestSegment near(outline);
-        const PointLocation air(std::move(outline), units_per_mm);
+        const NearestSegment& near = gap_places().air.edges;
+        const PointLocation& air = gap_places().air.location;
         const auto pieces = static_cast<std::size_t>(length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
         const std::size_t before = patches_.size();
         std::vector<Point> at;
@@ -283,6 +281,21 @@ private:
         return true;
     }
 
+    /// A region with what it takes to look things up in it.
+    struct Place {
+        explicit Place(const Region& region) : edges(edges_of(region)), location(edges_of(region), units_per_mm) {}
+        NearestSegment edges;
+        PointLocation location;
+    };
+    /// With a removal gap: where walls may stand, and what lies outside the slice. Made when first asked for.
+    struct GapPlaces {
+        Place walls, air;
+    };
+    const GapPlaces& gap_places() {
+        if (!gap_places_) gap_places_.emplace(GapPlaces{Place(*beside_->walls), Place(beside_->region)});
+        return *gap_places_;
+    }
+
     LayerPlan shell_;
     SupportForest forest_;
     const PrintedLayer* above_;
@@ -294,6 +307,7 @@ private:
         TrackKind kind;
     };
     const Cavity* beside_;
+    std::optional<GapPlaces> gap_places_;
     std::vector<Patch> patches_;
     std::vector<Point> tried_;
     std::vector<PrintedTrack> outside_;

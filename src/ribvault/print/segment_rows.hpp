@@ -46,12 +46,4 @@ private:
     std::vector<std::vector<Segment>> rows_;
 };
 
-/// The edges of a region's contours.
-inline std::vector<Segment> edges_of(const Region& region) {
-    std::vector<Segment> edges;
-    for (const Contour& c : region)
-        for (std::size_t i = 0; i < c.size(); ++i) edges.push_back({c[i], c[(i + 1) % c.size()]});
-    return edges;
-}
-
 }  // namespace ribvault

@@ -33,15 +33,6 @@ Contour hull_of(const Region& region) {
     return hull;
 }
 
-/// The object and the tracks beside it.
-Region with_tracks(const Region& object, const std::vector<Segment>& tracks, Unit radius) {
-    ClipperLib::ClipperOffset offsetter(2.0, 250);
-    for (const Segment& s : tracks) offsetter.AddPath({{s.a.x, s.a.y}, {s.b.x, s.b.y}}, ClipperLib::jtRound, ClipperLib::etOpenRound);
-    ClipperLib::Paths around;
-    offsetter.Execute(around, static_cast<double>(radius));
-    return clip(ClipperLib::ctUnion, object, from_clipper(around));
-}
-
 /// Loops at a distance around outer contours; those around holes lie inside them and are left out.
 void append_loops(const Region& around, double distance, Unit width, std::vector<ToolPath>& paths) {
     for (Contour& loop : offset(around, distance, ClipperLib::jtRound, 250))
@@ -52,7 +43,7 @@ void append_loops(const Region& around, double distance, Unit width, std::vector
 
 std::vector<ToolPath> skirt_and_brim(const Region& object, const Settings& settings, const TrackSettings& tracks, const std::vector<Segment>& supports) {
     std::vector<ToolPath> paths;
-    const Region outline = supports.empty() ? object : with_tracks(object, supports, settings.nozzle / 2);
+    const Region outline = supports.empty() ? object : clip(ClipperLib::ctUnion, object, offset(supports, static_cast<double>(settings.nozzle) / 2, 250));
     const Unit w = tracks.width_on(0, settings.nozzle);
     const double width = static_cast<double>(w);
     const int brim = brim_loops(w, tracks);

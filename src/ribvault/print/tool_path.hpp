@@ -40,6 +40,14 @@ inline double length(const ToolPath& path) {
     return sum;
 }
 
+/// Appends a path's centre line segment by segment, the closing one included; a dot is a segment of no length.
+inline void append_segments(const ToolPath& path, std::vector<Segment>& segments) {
+    const std::vector<Point>& p = path.points;
+    if (p.size() == 1) segments.push_back({p[0], p[0]});
+    for (std::size_t i = 1; i < p.size(); ++i) segments.push_back({p[i - 1], p[i]});
+    if (path.closed && p.size() > 1) segments.push_back({p.back(), p.front()});
+}
+
 /// The tracks of layer i in printing order: island by island perimeters, then what they enclose
 /// (print/order_paths.hpp).
 struct LayerPaths {

@@ -4,6 +4,8 @@
 #include <limits>
 #include <optional>
 
+#include "ribvault/exact/nearest_segment.hpp"
+
 namespace ribvault {
 namespace {
 

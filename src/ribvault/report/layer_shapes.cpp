@@ -1,5 +1,6 @@
 #include "ribvault/report/layer_shapes.hpp"
 
+#include "ribvault/print/gcode_text.hpp"
 #include "ribvault/report/packed.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
 
@@ -20,25 +21,11 @@ Region to_micrometre(const Region& region) {
     return rounded;
 }
 
-/// A decimal of mm without needless zeros.
-void append_mm(std::string& text, Unit units) {
-    Unit um = units / units_per_um;
-    if (um < 0) text += '-', um = -um;
-    text += std::to_string(um / 1000);
-    int rest = static_cast<int>(um % 1000);
-    if (rest == 0) return;
-    text += '.';
-    for (int unit = 100; rest > 0; unit /= 10) {
-        text += static_cast<char>('0' + rest / unit);
-        rest %= unit;
-    }
-}
-
 void append_point(std::string& text, Point p) {
     text += '[';
-    append_mm(text, p.x);
+    append_decimal(text, p.x);
     text += ',';
-    append_mm(text, p.y);
+    append_decimal(text, p.y);
     text += ']';
 }
 

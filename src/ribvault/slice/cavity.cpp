@@ -10,9 +10,6 @@
 namespace ribvault {
 namespace {
 
-/// Lattice units that rounding may take away: see erode_slice.
-constexpr double rounding = 3;
-
 /// Is every point of the segment within radius of one of the tree's segments? A piece whose two ends are within the radius
 /// of the same segment is, because the set within a radius of a segment is convex. Right when it says yes: pieces begin at
 /// lattice points of the segment where it has any (ties along the axes stay ties), else at rounded middles, less than a unit
@@ -40,7 +37,7 @@ bool within_radius(const Segment& piece, const NearestSegment& tree, Unit radius
 /// sliver's side of it, so that the distance falls from there into the sliver; else it may have a ridge inside.
 bool is_tie(const Region& sliver, const NearestSegment& shell, const NearestSegment& edges_above, Unit radius, Unit slack) {
     if (edges_above.empty()) return false;
-    constexpr Unit margin = static_cast<Unit>(2 * rounding);  // `inner` and its corners lie no farther from C_{i+1}'s edges
+    constexpr Unit margin = static_cast<Unit>(2 * clip_rounding);  // `inner` and its corners lie no farther from C_{i+1}'s edges
     for (const Segment& e : edges_of(sliver)) {
         Box box;
         box.add(e.a), box.add(e.b);
@@ -72,7 +69,7 @@ bool contours_cross(const Region& region) {
 }  // namespace
 
 Region erode_slice(const Slice& slice, const Settings& s) {
-    return offset(slice.rounded, -(static_cast<double>(s.perimeters) * static_cast<double>(s.nozzle) + rounding));
+    return offset(slice.rounded, -(static_cast<double>(s.perimeters) * static_cast<double>(s.nozzle) + clip_rounding));
 }
 
 Region intersect(const Region& a, const Region& b) {
@@ -91,7 +88,7 @@ Cavity make_cavity(int layer, Region region, const Settings& s) {
     Cavity cavity;
     cavity.layer = layer, cavity.region = std::move(region);
     if (cavity.region.empty()) return cavity;
-    cavity.inner = offset(cavity.region, -rounding);
+    cavity.inner = offset(cavity.region, -clip_rounding);
     cavity.deep = offset(cavity.region, -static_cast<double>(s.support_radius - s.slack), ClipperLib::jtRound,
                          static_cast<double>(s.slack) / 4);
     return cavity;
@@ -103,7 +100,7 @@ Region overhang_over_cavity(const Cavity& cavity, const Slice& slice_above, cons
     if (hanging.empty()) return {};
     if (s.top_layers == 0) {
         // Without covers the cavity may reach beyond the slice above; what is not printed needs no support.
-        hanging = intersect(hanging, offset(slice_above.rounded, rounding));
+        hanging = intersect(hanging, offset(slice_above.rounded, clip_rounding));
     }
     return without_ties(hanging, cavity, above, s);
 }
@@ -113,7 +110,7 @@ Region without_ties(const Region& hanging, const Cavity& cavity, const Cavity& a
     NearestSegment shell, edge_above;
     Region kept;
     for (Region& piece : connected_pieces(hanging)) {
-        const bool thin = offset(piece, -0.6 * static_cast<double>(s.slack) - rounding).empty();
+        const bool thin = offset(piece, -0.6 * static_cast<double>(s.slack) - clip_rounding).empty();
         if (thin && shell.empty()) {
             shell = NearestSegment(edges_of(cavity.region));
             edge_above = NearestSegment(edges_of(above.region));
@@ -122,7 +119,7 @@ Region without_ties(const Region& hanging, const Cavity& cavity, const Cavity& a
             std::move(piece.begin(), piece.end(), std::back_inserter(kept));
     }
     // Grown by what rounding may have taken away.
-    return kept.empty() ? kept : offset(kept, rounding);
+    return kept.empty() ? kept : offset(kept, clip_rounding);
 }
 
 }  // namespace ribvault

@@ -5,9 +5,6 @@
 namespace ribvault {
 namespace {
 
-/// Lattice units that rounding may take away: see erode_slice.
-constexpr double rounding = 3;
-
 Region complement(const Region& region, const Box& frame) {
     const Region all{{frame.lo, {frame.hi.x, frame.lo.y}, frame.hi, {frame.lo.x, frame.hi.y}}};
     return clip(ClipperLib::ctDifference, all, region);
@@ -17,7 +14,7 @@ Region complement(const Region& region, const Box& frame) {
 
 Cavity make_outside(const Slice& slice, const Box& frame, const Settings& s) {
     // On the object's side of the region's boundary is object, as it is shell on the shell's side of a cavity's.
-    Cavity outside = make_cavity(slice.layer, complement(offset(slice.rounded, -rounding), frame), s);
+    Cavity outside = make_cavity(slice.layer, complement(offset(slice.rounded, -clip_rounding), frame), s);
     outside.outside = true;
     if (s.support_gap > 0) {
         // Arcs become chords of their own circle; the last of an arc may be half as long again as the others, so that it cuts off

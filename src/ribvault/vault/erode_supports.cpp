@@ -1,28 +1,10 @@
 #include "ribvault/vault/erode_supports.hpp"
 
 #include <algorithm>
-#include <boost/graph/connected_components.hpp>
-#include <limits>
+
+#include "ribvault/vault/free_trees.hpp"
 
 namespace ribvault {
-namespace {
-
-/// How much every tree may lose: of one that stands free, what exceeds a pillar.
-struct SpareLengths {
-    std::vector<std::size_t> of;  ///< per vertex: its tree
-    std::vector<double> spare;    ///< per tree
-};
-SpareLengths spare_lengths(const SupportForest& forest, Unit pillar_length) {
-    SpareLengths trees{std::vector<std::size_t>(num_vertices(forest)), {}};
-    trees.spare.resize(boost::connected_components(forest, trees.of.data()), std::numeric_limits<double>::infinity());
-    for (auto [v, end] = vertices(forest); v != end; ++v)
-        if (forest[*v].free) trees.spare[trees.of[*v]] = -static_cast<double>(pillar_length);
-    for (auto [e, end] = edges(forest); e != end; ++e)
-        trees.spare[trees.of[source(*e, forest)]] += length(forest[target(*e, forest)].at - forest[source(*e, forest)].at);
-    return trees;
-}
-
-}  // namespace
 
 ErodedSupports erode_supports(const SupportForest& forest, Unit step, Unit pillar_length) {
     const std::size_t n = num_vertices(forest);
@@ -38,14 +20,14 @@ ErodedSupports erode_supports(const SupportForest& forest, Unit step, Unit pilla
         at[b].push_back(static_cast<std::uint32_t>(list.size()));
         list.push_back({a, b});
     }
-    SpareLengths trees = spare_lengths(forest, pillar_length);
+    SpareLengths lengths = spare_lengths(forest, pillar_length);
     std::vector<Point> place(n);
     std::vector<char> lost_branch(n, false);
     for (std::size_t v = 0; v < n; ++v) place[v] = forest[v].at;
 
     for (std::size_t tip = 0; step > 0 && tip < n; ++tip) {
         if (at[tip].size() != 1 || forest[tip].root) continue;
-        double& spare = trees.spare[trees.of[tip]];
+        double& spare = lengths.of(tip);
         if (spare <= 0) continue;
         double left = std::min(static_cast<double>(step), spare);
         spare -= left;  // at least what goes

@@ -1,7 +1,9 @@
 #include "ribvault/vault/free_trees.hpp"
 
+#include <boost/graph/connected_components.hpp>
+
 #include <algorithm>
-#include <vector>
+#include <limits>
 
 namespace ribvault {
 namespace {
@@ -75,6 +77,16 @@ double track_down(Vertex root, const SupportForest& forest, int layers, Unit ste
 }
 
 }  // namespace
+
+SpareLengths spare_lengths(const SupportForest& forest, Unit pillar_length) {
+    SpareLengths lengths{std::vector<std::size_t>(num_vertices(forest)), {}};
+    lengths.spare.resize(boost::connected_components(forest, lengths.tree.data()), std::numeric_limits<double>::infinity());
+    for (auto [v, end] = vertices(forest); v != end; ++v)
+        if (forest[*v].free) lengths.of(*v) = -static_cast<double>(pillar_length);
+    for (auto [e, end] = edges(forest); e != end; ++e)
+        lengths.of(source(*e, forest)) += length(forest[target(*e, forest)].at - forest[source(*e, forest)].at);
+    return lengths;
+}
 
 void root_trees(SupportForest& forest) {
     std::vector<char> seen(num_vertices(forest), 0);

@@ -1,9 +1,19 @@
 // Trees that stand free: outside, where no shell is near enough or none may be touched, on the layer below alone.
 #pragma once
 
+#include <vector>
+
 #include "ribvault/vault/support_forest.hpp"
 
 namespace ribvault {
+
+/// How much track every tree may lose, lattice units: of one that stands free what exceeds a pillar, of others all.
+struct SpareLengths {
+    std::vector<std::size_t> tree;  ///< per vertex: the number of its tree
+    std::vector<double> spare;      ///< per tree
+    double& of(std::size_t vertex) { return spare[tree[vertex]]; }
+};
+SpareLengths spare_lengths(const SupportForest& forest, Unit pillar_length);
 
 /// Leaves every tree one root: the first on the shell, if it has one, else the first free one, else a free one at the vertex
 /// nearest to the middle of the tree. Its other roots become what they are without it, so that erosion may take them.

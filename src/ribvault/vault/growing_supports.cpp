@@ -45,39 +45,39 @@ bool GrowingSupports::covers(Point p, double radius) const {
     });
 }
 
-bool GrowingSupports::free_way(Point from, Point to, std::uint32_t wall) const {
-    const Segment way{from, to};
+template <class Skip>
+bool GrowingSupports::walls_bar(const Segment& way, Skip&& skip) const {
     Box box;
     box.add(way.a), box.add(way.b);
-    bool blocked = false;
+    bool barred = false;
     grid_.visit(box, [&](std::uint32_t w) {
-        if (blocked || !walls_[w].alive || w == wall) return;
+        if (barred || !walls_[w].alive || skip(w)) return;
         const Segment s = segment(w);
-        blocked = s.a != to && s.b != to && segments_touch(way, s);
+        barred = s.a != way.b && s.b != way.b && segments_touch(way, s);
     });
-    if (blocked) return false;
-    boundary_.edges.visit(box, [&](std::uint32_t k) { blocked = blocked || segments_touch(way, boundary_.edges.segments()[k]); });
-    return !blocked;
+    return barred;
+}
+
+bool GrowingSupports::edge_bars(const Segment& way, bool at_root) const {
+    Box box;
+    box.add(way.a), box.add(way.b);
+    bool barred = false;
+    boundary_.edges.visit(box, [&](std::uint32_t k) {
+        const Segment& e = boundary_.edges.segments()[k];
+        if (!barred && segments_touch(way, e)) barred = !at_root || compare_distance(way.b, e, root_tolerance) > 0;
+    });
+    return barred;
+}
+
+bool GrowingSupports::free_way(Point from, Point to, std::uint32_t wall) const {
+    const Segment way{from, to};
+    return !walls_bar(way, [&](std::uint32_t w) { return w == wall; }) && !edge_bars(way, false);
 }
 
 bool GrowingSupports::free_way(Point from, std::size_t to) const {
     const Segment way{from, forest_[to].at};
-    Box box;
-    box.add(way.a), box.add(way.b);
-    bool blocked = false;
-    grid_.visit(box, [&](std::uint32_t w) {
-        if (blocked || !walls_[w].alive || walls_[w].a == to || walls_[w].b == to) return;
-        const Segment s = segment(w);
-        if (s.a != way.b && s.b != way.b) blocked = segments_touch(way, s);
-    });
-    if (blocked) return false;
-    // A root lies on the shell: the way may meet the boundary there and nowhere else.
-    boundary_.edges.visit(box, [&](std::uint32_t k) {
-        const Segment& e = boundary_.edges.segments()[k];
-        if (blocked || !segments_touch(way, e)) return;
-        blocked = !forest_[to].root || forest_[to].free || compare_distance(way.b, e, root_tolerance) > 0;
-    });
-    return !blocked;
+    return !walls_bar(way, [&](std::uint32_t w) { return walls_[w].a == to || walls_[w].b == to; }) &&
+           !edge_bars(way, forest_[to].root && !forest_[to].free);
 }
 
 std::size_t GrowingSupports::split(std::uint32_t wall, Point near) {

@@ -61,6 +61,11 @@ private:
     void enter(std::size_t a, std::size_t b);
     void connect(std::size_t a, std::size_t b);
     void add_tip(Point p, std::size_t joint);
+    /// Does a wall meet the way elsewhere than at its end? Walls for which skip(index) holds do not count.
+    template <class Skip>
+    bool walls_bar(const Segment& way, Skip&& skip) const;
+    /// Does an edge of the boundary? `at_root`: the way ends in a root on the shell and may meet the boundary there.
+    bool edge_bars(const Segment& way, bool at_root) const;
     bool free_way(Point from, std::size_t to) const;
     bool free_way(Point from, Point to, std::uint32_t wall) const;  ///< `to` lies on that wall
     double longest_wall() const;                                    ///< that takes less track than a pillar

@@ -8,6 +8,7 @@
 #include "ribvault/vault/grow_supports.hpp"
 #include "ribvault/vault/shrink_supports.hpp"
 #include "ribvault/vault/straighten_supports.hpp"
+#include "ribvault/vault/wall_stability.hpp"
 
 namespace ribvault {
 
@@ -68,10 +69,7 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         if (cavity.walls) result.unsupported = within_reach(result.unsupported, *cavity.walls, settings);
         const std::uint64_t layer_seed = settings.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(cavity.layer);
         result.forest = grow_supports(std::move(propagated), result.unsupported, boundary, layer_seed, settings);
-        if (!cavity.outside) {
-            result.stability.wide_trees = mark_wide_trees(result.forest, settings);
-            result.stability.worst = most_slender(result.forest, settings);
-        }
+        if (!cavity.outside) mark_wide_trees(result.forest, settings);
     }
     if (cavity.outside)
         for (auto [v, end] = vertices(result.forest); v != end; ++v) result.forest[*v].outside = true;

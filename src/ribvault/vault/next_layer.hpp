@@ -4,14 +4,12 @@
 #include "ribvault/settings.hpp"
 #include "ribvault/slice/cavity.hpp"
 #include "ribvault/vault/support_forest.hpp"
-#include "ribvault/vault/wall_stability.hpp"
 
 namespace ribvault {
 
 struct LayerSupports {
     SupportForest forest;
     Region unsupported;  ///< U_{i+1} (a superset, see detection), for pictures
-    WallStability stability;
     int blocked = 0;     ///< chains that could not be straightened without crossing another wall
 };
 

@@ -1,10 +1,9 @@
 #include "ribvault/vault/shrink_supports.hpp"
 
 #include <algorithm>
-#include <boost/graph/connected_components.hpp>
-#include <limits>
 #include <numeric>
 
+#include "ribvault/vault/free_trees.hpp"
 #include "ribvault/vault/segment_grid.hpp"
 #include "ribvault/vault/wall_contacts.hpp"
 
@@ -31,7 +30,8 @@ public:
         for (auto [v, end] = vertices(forest); v != end; ++v) nodes_.push_back({forest[*v].at, forest[*v].root, {forest[*v].at}, {}, forest[*v]});
         for (auto [e, end] = edges(forest); e != end; ++e) add_wall(source(*e, forest), target(*e, forest));
         input_walls_ = walls_.size();
-        keep_pillars(forest, static_cast<double>(pillar_length));
+        SpareLengths lengths = spare_lengths(forest, pillar_length);
+        for (std::size_t v = 0; v < nodes_.size(); ++v) nodes_[v].free = forest[v].free, nodes_[v].stays = lengths.of(v) <= 0;
     }
 
     ShrunkSupports run() {
@@ -61,15 +61,6 @@ private:
         std::size_t a, b;
         bool alive = true;
     };
-
-    void keep_pillars(const SupportForest& forest, double pillar_length) {
-        std::vector<std::size_t> tree(num_vertices(forest));
-        std::vector<double> spare(boost::connected_components(forest, tree.data()), std::numeric_limits<double>::infinity());
-        for (std::size_t v = 0; v < tree.size(); ++v)
-            if (forest[v].free) nodes_[v].free = true, spare[tree[v]] = -pillar_length;
-        for (auto [e, end] = edges(forest); e != end; ++e) spare[tree[source(*e, forest)]] += length(forest[target(*e, forest)].at - forest[source(*e, forest)].at);
-        for (std::size_t v = 0; v < tree.size(); ++v) nodes_[v].stays = spare[tree[v]] <= 0;
-    }
 
     static Box bounds(const SupportForest& forest) {
         Box box;

@@ -75,14 +75,15 @@ SlenderPlace most_slender(const SupportForest& forest, const Settings& settings)
     SlenderPlace worst;
     for (auto [e, end] = edges(forest); e != end; ++e) {
         const std::size_t a = source(*e, forest), b = target(*e, forest);
+        if (forest[a].outside) continue;
         const SlenderPlace place = WallProfile(forest[a], forest[b], to_root[a], to_root[b], settings).worst();
         if (place.ratio > worst.ratio) worst = place;
     }
     return worst;
 }
 
-int mark_wide_trees(SupportForest& forest, const Settings& settings) {
-    if (settings.wall_lines < 2) return 0;
+void mark_wide_trees(SupportForest& forest, const Settings& settings) {
+    if (settings.wall_lines < 2) return;
     const std::vector<double> to_root = distances_to_roots(forest);
     std::vector<std::size_t> tree(num_vertices(forest));
     if (!tree.empty()) connected_components(forest, tree.data());
@@ -94,7 +95,13 @@ int mark_wide_trees(SupportForest& forest, const Settings& settings) {
     for (std::size_t v = 0; v < tree.size(); ++v) forest[v].wide = wide[tree[v]] != 0;
     for (auto [e, end] = edges(forest); e != end; ++e)
         if (forest[source(*e, forest)].wide) forest[*e].to_junction = true;
-    return static_cast<int>(std::count(wide.begin(), wide.end(), 1));
+}
+
+int wide_trees(const SupportForest& forest) {
+    int trees = 0;  // a tree has one vertex more than edges
+    for (auto [v, end] = vertices(forest); v != end; ++v) trees += forest[*v].wide;
+    for (auto [e, end] = edges(forest); e != end; ++e) trees -= forest[source(*e, forest)].wide;
+    return trees;
 }
 
 }  // namespace ribvault

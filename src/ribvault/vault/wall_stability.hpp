@@ -14,17 +14,14 @@ struct SlenderPlace {
     double to_root = 0;   ///< lattice units: along the wall to the nearest root
     Point at;
 };
-struct WallStability {
-    SlenderPlace worst;
-    int wide_trees = 0;  ///< printed with several tracks side by side
-};
-
-/// The place of the greatest ratio; all zero for a forest without walls. Exact up to double arithmetic.
+/// The place of the greatest ratio among internal supports; all zero without walls. Exact up to double arithmetic.
 SlenderPlace most_slender(const SupportForest& forest, const Settings& settings);
 
 /// Marks the trees (SupportVertex::wide; their walls have no gaps at junctions, SupportEdge::to_junction) that reach farther from their roots than settings.wall_lines_longer, that carry more than
 /// settings.wall_lines_taller, or that grew out of such a tree. Does nothing with one line a wall.
-/// Returns how many trees are marked then.
-int mark_wide_trees(SupportForest& forest, const Settings& settings);
+void mark_wide_trees(SupportForest& forest, const Settings& settings);
+
+/// How many trees are marked.
+int wide_trees(const SupportForest& forest);
 
 }  // namespace ribvault
