@@ -182,3 +182,15 @@ TEST_CASE("a root that the object leaves behind without another in reach stands 
     REQUIRE(roots(in_the_air).size() == 1);
     CHECK(in_the_air[roots(in_the_air)[0]].free);
 }
+
+TEST_CASE("a wide wall that comes out of a cavity has one line outside") {
+    Settings settings;
+    settings.support = Support::both;
+    settings.wall_lines = 2;
+    SupportForest above;
+    const auto root = add_vertex({.at = {100000, 0}, .root = true, .wide = true}, above), tip = add_vertex({.at = {900000, 0}, .wide = true}, above);
+    add_edge(root, tip, above);
+    const SupportForest below = next_layer(above, beside(49, {}, settings), {}, settings).forest;
+    REQUIRE(num_edges(below) > 0);
+    for (auto [v, end] = vertices(below); v != end; ++v) CHECK((below[*v].outside && !below[*v].wide));
+}

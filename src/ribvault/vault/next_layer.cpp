@@ -71,8 +71,8 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         result.forest = grow_supports(std::move(propagated), result.unsupported, boundary, layer_seed, settings);
         if (!cavity.outside) mark_wide_trees(result.forest, settings);
     }
-    if (cavity.outside)
-        for (auto [v, end] = vertices(result.forest); v != end; ++v) result.forest[*v].outside = true;
+    if (cavity.outside)  // where walls have one line, also those that came out of a cavity
+        for (auto [v, end] = vertices(result.forest); v != end; ++v) result.forest[*v].outside = true, result.forest[*v].wide = false;
     std::size_t index = 0;
     for (auto [e, end] = edges(above); e != end; ++e, ++index) above[*e].first_layer = !continues[index];
     return result;
