@@ -183,3 +183,18 @@ TEST_CASE("vertices of slices are rounded to their nearest lattice point") {
         }
     }
 }
+
+TEST_CASE("enclosures of a slice's vertices do not change when somebody asks for the exact value") {
+    std::mt19937_64 random(7);
+    const Mesh ball = weld(bumpy_ball(random, {0, 1.3, 2.7, 4}, 17, 0.09));
+    const Slicer slicer(ball, Placement{}, layers_of("0.2"));
+    for (int i = 0; i < slicer.layer_count(); ++i) {
+        const Slice slice = slicer.slice(i);
+        const ExactPolygon& exact = slice.exact->polygons.front().outer_boundary();
+        for (auto v = exact.vertices_begin(); v != exact.vertices_end(); ++v) {
+            const auto x = tight_enclosure(v->x()), y = tight_enclosure(v->y());
+            CGAL::exact(*v);
+            REQUIRE((tight_enclosure(v->x()) == x && tight_enclosure(v->y()) == y));
+        }
+    }
+}

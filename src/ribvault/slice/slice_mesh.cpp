@@ -217,6 +217,12 @@ void drop_repeated(ExactContour& contour, bool closed) {
     while (closed && contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();
 }
 
+/// Computes the exact coordinates before threads share them: a lazy point's enclosure changes when somebody asks for its exact
+/// value, and what the verifier names would depend on who was first.
+void settle(const ExactPolygon& polygon) {
+    for (auto v = polygon.vertices_begin(); v != polygon.vertices_end(); ++v) CGAL::exact(*v);
+}
+
 Contour rounded(const ExactPolygon& polygon) {
     Contour contour;
     for (auto v = polygon.vertices_begin(); v != polygon.vertices_end(); ++v) {
@@ -262,8 +268,12 @@ Slice Slicer::slice(int layer, std::vector<GapClosing>* closings) const {
     std::optional<ExactPolygons> polygons = nest_contours(gaps.contours);
     slice.exact = std::make_shared<const ExactPolygons>(polygons ? std::move(*polygons) : regularise(gaps.contours));
     for (const ExactPolygonWithHoles& polygon : slice.exact->polygons) {
-        slice.rounded.push_back(rounded(polygon.outer_boundary()));
-        for (auto hole = polygon.holes_begin(); hole != polygon.holes_end(); ++hole) slice.rounded.push_back(rounded(*hole));
+        const auto add = [&](const ExactPolygon& contour) {
+            settle(contour);
+            slice.rounded.push_back(rounded(contour));
+        };
+        add(polygon.outer_boundary());
+        for (auto hole = polygon.holes_begin(); hole != polygon.holes_end(); ++hole) add(*hole);
     }
     std::erase_if(slice.rounded, [](const Contour& c) { return c.size() < 3; });
     return slice;
