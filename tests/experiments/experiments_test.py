@@ -17,7 +17,8 @@ PROGRAMS = tempfile.TemporaryDirectory()  # ribvault alone: the slow comparisons
 os.symlink(os.path.realpath(os.environ["RIBVAULT"]), pathlib.Path(PROGRAMS.name) / "ribvault")
 os.environ["RIBVAULT_BIN"] = PROGRAMS.name
 
-from lab import race  # noqa: E402
+import scaling  # noqa: E402
+from lab import meshes, race  # noqa: E402
 from lab.laboratory import Laboratory  # noqa: E402
 from lab.store import Damaged, Store  # noqa: E402
 from lab.tables import Table, growth_exponent, percent_off, spread  # noqa: E402
@@ -116,6 +117,41 @@ class Races(unittest.TestCase):
     def test_a_program_that_fails_ends_the_race_with_its_words(self):
         with self.assertRaisesRegex(SystemExit, "no-such-file"):
             race.race([race.Entry("none", "own", ROOT / "no-such-file.stl")], 1)
+
+
+class Scaling(Scratch):
+    def assert_closed(self, mesh):
+        sides = [(t[k], t[(k + 1) % 3]) for t in mesh[1] for k in range(3)]
+        self.assertEqual(len(set(sides)), len(sides))
+        self.assertEqual({(b, a) for a, b in sides}, set(sides))
+
+    def test_meshes_are_closed_and_as_fine_as_asked_for(self):
+        for count in (12, 13, 50, 191, 193, 1000):
+            mesh = meshes.refined(*meshes.column(5.0), count)
+            self.assertIn(len(mesh[1]), (count, count + 1))
+            self.assert_closed(mesh)
+        ball = meshes.ball(1000)
+        self.assert_closed(ball)
+        self.assertAlmostEqual(len(ball[1]), 1000, delta=50)
+
+    def test_a_refined_mesh_prints_as_the_coarse_one(self):
+        totals = []
+        for name, mesh in (("coarse", meshes.column(5.0)), ("fine", meshes.refined(*meshes.column(5.0), 500))):
+            meshes.write_stl(self.folder / f"{name}.stl", mesh)
+            cost = scaling.measure(scaling.Case(1, self.folder / f"{name}.stl", ("--scale", 1)))
+            self.assertTrue(cost["proved"])
+            totals.append(cost["layers"])
+        self.assertEqual(totals, [25, 25])
+
+    def test_memory_is_the_programs_own(self):
+        ballast = bytearray(400_000_000)
+        meshes.write_stl(self.folder / "column.stl", meshes.column(2.0))
+        self.assertLess(scaling.measure(scaling.Case(1, self.folder / "column.stl", ("--scale", 1)))["peak_memory_mb"], 200)
+        del ballast
+
+    def test_exponents_are_of_the_rows(self):
+        rows = [{"size": n, "seconds": 3 * n ** 2, "cpu_seconds": 5 * n, "peak_memory_mb": 7.0} for n in (1, 2, 5)]
+        self.assertEqual({k: round(e, 9) for k, e in scaling.exponents(rows).items()}, {"wall time": 2, "CPU time": 1, "memory": 0})
 
 
 class WholeRuns(Scratch):
