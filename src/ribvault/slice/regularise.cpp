@@ -52,7 +52,10 @@ void wind(Arrangement& arrangement, const std::vector<char>& left_to_right) {
 template <class Circulator>
 ExactPolygon polygon_around(Circulator first) {
     ExactPolygon polygon;
-    around(first, [&](Arrangement::Halfedge_const_handle halfedge) { polygon.push_back(halfedge->target()->point()); });
+    around(first, [&](Arrangement::Halfedge_const_handle halfedge) {
+        CGAL::exact(halfedge->target()->point());  // before threads share it: what asks for it later changes its enclosure (Slice)
+        polygon.push_back(halfedge->target()->point());
+    });
     return polygon;
 }
 

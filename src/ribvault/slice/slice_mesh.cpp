@@ -8,14 +8,11 @@
 
 #include "ribvault/error.hpp"
 #include "ribvault/slice/close_gaps.hpp"
+#include "ribvault/slice/edge_crossings.hpp"
 #include "ribvault/slice/nest_contours.hpp"
 
 namespace ribvault {
 namespace {
-
-using Number = ExactKernel::FT;
-
-Number exact_number(const Rational& q) { return Number(Number::ET(q)); }
 
 std::string describe(const std::vector<GapClosing>& gaps, std::size_t count) {
     std::ostringstream text;
@@ -49,7 +46,7 @@ Rational Slicer::plane_height(int layer) const {
 }
 
 Slicer::Slicer(const Mesh& mesh, const Placement& placement, const Settings& settings)
-    : mesh_(mesh), placement_(placement), settings_(settings) {
+    : mesh_(mesh), placement_(placement), settings_(settings), grid_bits_(mesh_grid_bits(mesh)) {
     const auto vertices = static_cast<std::size_t>(mesh.vertices.cols()), triangles = static_cast<std::size_t>(mesh.triangles.cols());
     const auto height = [&](std::size_t v) {
         return placement_.sign[2] * mesh_.vertices(placement_.axis[2], static_cast<Eigen::Index>(v));
@@ -184,43 +181,9 @@ Slicer::Contours Slicer::trace(int layer) const {
 
 namespace {
 
-/// Computes slice vertices: where a mesh edge crosses the plane. Always from the same end, so that both triangles at the
-/// edge give the same number.
-class Intersector {
-public:
-    Intersector(const Mesh& mesh, const Placement& placement, const Rational& plane)
-        : mesh_(mesh), placement_(placement), z_(exact_number((plane - placement.offset[2]) / placement.scale)),
-          scale_(exact_number(placement.scale)), x_(exact_number(placement.offset[0])), y_(exact_number(placement.offset[1])) {}
-
-    ExactPoint at(const std::array<std::int32_t, 2>& ends) const {
-        const Number z0(coordinate(2, ends[0])), z1(coordinate(2, ends[1]));
-        const Number t = (z_ - z0) / (z1 - z0);
-        return {bed(0, ends, t, x_), bed(1, ends, t, y_)};
-    }
-
-private:
-    double coordinate(std::size_t k, std::int32_t vertex) const {
-        return placement_.sign[k] * mesh_.vertices(placement_.axis[k], vertex);
-    }
-    Number bed(std::size_t k, const std::array<std::int32_t, 2>& ends, const Number& t, const Number& offset) const {
-        const double a = coordinate(k, ends[0]), b = coordinate(k, ends[1]);
-        if (a == b) return scale_ * Number(a) + offset;
-        return scale_ * (Number(a) + t * (Number(b) - Number(a))) + offset;
-    }
-    const Mesh& mesh_;
-    const Placement& placement_;
-    Number z_, scale_, x_, y_;
-};
-
 void drop_repeated(ExactContour& contour, bool closed) {
     contour.erase(std::unique(contour.begin(), contour.end()), contour.end());
     while (closed && contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();
-}
-
-/// Computes the exact coordinates before threads share them: a lazy point's enclosure changes when somebody asks for its exact
-/// value, and what the verifier names would depend on who was first.
-void settle(const ExactPolygon& polygon) {
-    for (auto v = polygon.vertices_begin(); v != polygon.vertices_end(); ++v) CGAL::exact(*v);
 }
 
 Contour rounded(const ExactPolygon& polygon) {
@@ -234,11 +197,11 @@ Contour rounded(const ExactPolygon& polygon) {
 }
 
 ClosedGaps close_contours(const std::vector<std::vector<std::int32_t>>& closed, const std::vector<std::vector<std::int32_t>>& open,
-                          const std::vector<std::array<std::int32_t, 2>>& edge_ends, const Intersector& intersector, int layer, Unit max_gap) {
+                          const std::vector<std::array<std::int32_t, 2>>& edge_ends, const EdgeCrossings& crossings, int layer, Unit max_gap) {
     const auto points = [&](const std::vector<std::int32_t>& edges, bool is_closed) {
         ExactContour contour;
         contour.reserve(edges.size());
-        for (const std::int32_t e : edges) contour.push_back(intersector.at(edge_ends[static_cast<std::size_t>(e)]));
+        for (const std::int32_t e : edges) contour.push_back(crossings.at(edge_ends[static_cast<std::size_t>(e)]));
         drop_repeated(contour, is_closed);
         return contour;
     };
@@ -257,9 +220,9 @@ ClosedGaps close_contours(const std::vector<std::vector<std::int32_t>>& closed, 
 }  // namespace
 
 Slice Slicer::slice(int layer, std::vector<GapClosing>* closings) const {
-    const Intersector intersector(mesh_, placement_, plane_height(layer));
+    const EdgeCrossings crossings(mesh_, placement_, plane_height(layer), grid_bits_);
     const Contours contours = trace(layer);
-    ClosedGaps gaps = close_contours(contours.closed, contours.open, edge_ends_, intersector, layer, settings_.max_gap);
+    ClosedGaps gaps = close_contours(contours.closed, contours.open, edge_ends_, crossings, layer, settings_.max_gap);
     if (!gaps.open.empty()) refuse_open(gaps.open, "on layer " + std::to_string(layer), settings_);
     if (closings) closings->insert(closings->end(), gaps.closings.begin(), gaps.closings.end());
 
@@ -269,7 +232,6 @@ Slice Slicer::slice(int layer, std::vector<GapClosing>* closings) const {
     slice.exact = std::make_shared<const ExactPolygons>(polygons ? std::move(*polygons) : regularise(gaps.contours));
     for (const ExactPolygonWithHoles& polygon : slice.exact->polygons) {
         const auto add = [&](const ExactPolygon& contour) {
-            settle(contour);
             slice.rounded.push_back(rounded(contour));
         };
         add(polygon.outer_boundary());
@@ -282,8 +244,8 @@ Slice Slicer::slice(int layer, std::vector<GapClosing>* closings) const {
 std::vector<GapClosing> Slicer::open_gaps(int layer) const {
     const Contours contours = trace(layer);
     if (contours.open.empty()) return {};
-    const Intersector intersector(mesh_, placement_, plane_height(layer));
-    return close_contours({}, contours.open, edge_ends_, intersector, layer, settings_.max_gap).open;
+    const EdgeCrossings crossings(mesh_, placement_, plane_height(layer), grid_bits_);
+    return close_contours({}, contours.open, edge_ends_, crossings, layer, settings_.max_gap).open;
 }
 
 void require_closed_contours(const Slicer& slicer, const Settings& settings) {

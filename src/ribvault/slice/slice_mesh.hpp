@@ -46,6 +46,7 @@ private:
     const Mesh& mesh_;
     Placement placement_;
     Settings settings_;
+    long grid_bits_ = 0;  ///< coordinates are multiples of 2^-grid_bits_
     int layers_ = 0;
     std::vector<std::int32_t> planes_below_;     ///< per vertex: how many planes lie at or below it
     std::vector<std::int32_t> edge_of_;          ///< 3 per triangle: number of the mesh edge from corner k to k + 1

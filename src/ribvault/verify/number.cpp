@@ -46,7 +46,8 @@ Vec<Rational> exact_point<Rational>(const Vertex& v) {
     if (v.rational) return *v.rational;
     if (!v.slice) return {Rational(static_cast<long>(v.lattice.x)), Rational(static_cast<long>(v.lattice.y))};
     const Rational scale(static_cast<long>(units_per_mm));
-    return {Rational(CGAL::exact(v.slice->x()) * scale), Rational(CGAL::exact(v.slice->y()) * scale)};
+    const auto& exact = CGAL::exact(*v.slice);
+    return {Rational(exact.x() * scale), Rational(exact.y() * scale)};
 }
 
 template <>
