@@ -7,6 +7,7 @@
 #include <boost/graph/copy.hpp>
 #include <chrono>
 #include <deque>
+#include <mutex>
 
 #include "ribvault/error.hpp"
 #include "ribvault/print/shell_paths.hpp"
@@ -56,7 +57,25 @@ struct Token {
     std::shared_ptr<const LayerMaterial> below_swept;
     std::shared_ptr<void> finished;
 };
-using TokenPtr = std::shared_ptr<Token>;
+using TokenPtr = Token*;
+
+/// The tokens on their way. When a stage throws, TBB forgets those that are under way: they are freed here.
+class Tokens {
+public:
+    TokenPtr add() {
+        const std::lock_guard lock(mutex_);
+        return &tokens_.emplace_back();
+    }
+    /// Tokens arrive in the order in which they left.
+    void remove_first() {
+        const std::lock_guard lock(mutex_);
+        tokens_.pop_front();
+    }
+
+private:
+    std::mutex mutex_;
+    std::deque<Token> tokens_;
+};
 
 std::shared_ptr<const std::vector<Segment>> tracks_of(const SupportForest& forest) {
     auto tracks = std::make_shared<std::vector<Segment>>();
@@ -95,6 +114,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
     const int layers = slicer.layer_count(), up = settings.top_layers, down = settings.bottom_layers;
     Clock slicing, eroding, cavities, overhangs, planning, sweeping, holding, finishing;
 
+    Tokens tokens;
     int next = layers - 1;  // after the last slice come empty tokens that push the last layers through
     const int last = -down - 1;
     const auto produce = [&](tbb::flow_control& flow) -> TokenPtr {
@@ -102,7 +122,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
             flow.stop();
             return nullptr;
         }
-        auto token = std::make_shared<Token>();
+        const TokenPtr token = tokens.add();
         token->slice_index = next--;
         return token;
     };
@@ -205,11 +225,12 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
     };
     const auto deliver = [&](TokenPtr token) {
         if (token->swept) collect(*token->swept, std::move(token->finished));
+        tokens.remove_first();
     };
 
-    const std::size_t tokens = 4 * limit + static_cast<std::size_t>(up + down);
+    const std::size_t window_size = 4 * limit + static_cast<std::size_t>(up + down);
     tbb::parallel_pipeline(
-        tokens, tbb::make_filter<void, TokenPtr>(filter_mode::serial_in_order, produce) &
+        window_size, tbb::make_filter<void, TokenPtr>(filter_mode::serial_in_order, produce) &
                     tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::parallel, slice) &
                     tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::serial_in_order, gather) &
                     tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::parallel, hollow) &
