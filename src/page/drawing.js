@@ -50,7 +50,6 @@ class LayerView {
     this.paths = remember(40, k => run.kind === "layers" ? vaultPaths(run, k) : null);
     this.own = remember(80, e => linePaths(run, e, true));
     this.all = remember(80, e => linePaths(run, e, false));
-    this.sheet = document.createElement("canvas");
     this.listen();
   }
   get scale() {
@@ -140,19 +139,11 @@ class LayerView {
       lines(n.pieces, colour("hang"));
     }
   }
-  /** What violates equation (2): the judged tracks, without the material below dilated by rho. */
+  /** What violates equation (2), with its exact boundary. */
   paintRegions(g, entry, colour) {
-    const { sheet, canvas, run } = this, n = run.all[entry].numbers;
-    if (n.regions.length === 0) return;
-    sheet.width = canvas.width; sheet.height = canvas.height;
-    const s = sheet.getContext("2d");
-    this.place(s);
-    s.lineCap = s.lineJoin = "round";
-    s.strokeStyle = colour("hang");
-    for (const t of this.own(entry)) if (t.judged) { s.lineWidth = t.width; s.stroke(t.path); }
-    s.globalCompositeOperation = "destination-out";
-    for (const b of n.below) for (const t of this.all(b)) { s.lineWidth = t.width + 2 * run.rho; s.stroke(t.path); }
-    g.save(); g.setTransform(1, 0, 0, 1, 0, 0); g.globalAlpha = 0.6; g.drawImage(sheet, 0, 0); g.restore();
+    g.globalAlpha = 0.6; g.fillStyle = colour("hang");
+    for (const r of this.run.all[entry].numbers.regions) g.fill(new Path2D(r[7]));
+    g.globalAlpha = 1;
   }
   scaleBar(g, ratio, colour) {
     g.setTransform(ratio, 0, 0, ratio, 0, 0);

@@ -85,6 +85,31 @@ TEST_CASE("a cantilever hangs where it leaves what is below by more than rho", "
     CHECK(r.layers[1].regions[0].lines == std::vector<std::int64_t>{13});
 }
 
+TEST_CASE("the report has a region's boundary when asked for, exactly", "[verify-print]") {
+    VerifyJob job = job_on("cantilever.gcode");
+    const auto region_of = [](const PrintReport& report) { return nlohmann::json::parse(to_json(report))["layers"][1]["regions"][0]; };
+    CHECK_FALSE(region_of(verify_print(job)).contains("boundary"));
+    job.boundaries = true;
+    const nlohmann::json region = region_of(verify_print(job)), boundary = region["boundary"];
+    REQUIRE(boundary["components"].size() == 1);
+    const nlohmann::json component = boundary["components"][0];
+    REQUIRE(component["loops"].size() == 1);
+    CHECK(component["area_mm2"][0] >= region["area_mm2"][0]);
+    // the track's two sides and its end, and the end of the track below, dilated: run through the other way round
+    REQUIRE(component["loops"][0].size() == 4);
+    int turns[3] = {0, 0, 0};
+    for (const nlohmann::json& piece : component["loops"][0]) {
+        const int turn = piece[3].get<int>();
+        ++turns[turn + 1];
+        const nlohmann::json curve = boundary["curves"][piece[0].get<std::size_t>()];
+        CHECK(curve["kind"] == (turn == 0 ? "line" : "circle"));
+        CHECK(curve["of"] == (turn < 0 ? "below" : "above"));
+        CHECK(curve["radius_mm"] == (turn < 0 ? "2/5" : "1/5"));
+        if (turn >= 0) CHECK(curve["line"] == 13);
+    }
+    CHECK((turns[0] == 1 && turns[1] == 2 && turns[2] == 1));
+}
+
 TEST_CASE("rho as given, by overlap, by nozzle", "[verify-print]") {
     VerifyJob job = job_on("cantilever.gcode");
     job.support_radius = Rational(98, 10);

@@ -11,7 +11,7 @@
 namespace ribvault {
 namespace {
 
-constexpr int area_cells = 20000;  // effort of a region's area: bounds within some per cent, half a second for a hundred layers
+constexpr int distance_cells = 20000;  // effort of a region's greatest distance: more than it takes for bounds within 1e-3
 
 std::array<double, 2> place(const std::array<Rational, 2>& p) { return {p[0].get_d(), p[1].get_d()}; }
 
@@ -35,8 +35,10 @@ HangingPiece describe(const UnsupportedPiece& p, const PrintedLayer& upper) {
     return piece;
 }
 
-HangingRegion describe(const UnsupportedRegion& r, const PrintedLayer& upper, double min_area) {
+HangingRegion describe(const UnsupportedRegion& r, const PrintedLayer& upper, const PrintedLayer& lower, double min_area) {
     HangingRegion region;
+    region.boundary = r.boundary;
+    for (const BoundaryCurve& c : r.boundary.curves) region.curve_lines.push_back((c.above ? upper : lower).tracks[c.track].line);
     region.area_mm2 = {r.area_lo, r.area_hi};
     region.distance_mm = {r.distance_lo, r.distance_hi};
     region.witness = place(r.witness);
@@ -117,7 +119,7 @@ JudgedLayer judge_layer(const GcodePrint& print, std::size_t entry, const LayerR
     }
     PrintedOptions options;
     options.judged = judged_of(upper);
-    options.area_cells = area_cells;
+    options.distance_cells = distance_cells;
     const PrintedVerdict verdict = verify_printed(upper, lower, rules.support_radius, options);
     out.stages += verdict.stages;
     for (std::size_t k = 0; k < upper.tracks.size(); ++k) {
@@ -126,7 +128,7 @@ JudgedLayer judge_layer(const GcodePrint& print, std::size_t entry, const LayerR
         result.features[static_cast<std::size_t>(upper.tracks[k].feature)].unsupported_mm += length;
     }
     for (const UnsupportedPiece& p : verdict.pieces) out.pieces.push_back(describe(p, upper));
-    for (const UnsupportedRegion& r : verdict.regions) out.regions.push_back(describe(r, upper, rules.min_area));
+    for (const UnsupportedRegion& r : verdict.regions) out.regions.push_back(describe(r, upper, lower, rules.min_area));
     const auto counts = [](const HangingRegion& r) { return !r.ignored; };
     out.supported = verdict.supported || (!out.regions.empty() && std::none_of(out.regions.begin(), out.regions.end(), counts));
     return result;

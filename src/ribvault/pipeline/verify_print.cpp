@@ -139,6 +139,7 @@ private:
         report_.support_radius_mm = radius_.get_d();
         report_.support_radius_exact = radius_.get_str();
         if (job_.longest_bridge) report_.longest_bridge_mm = job_.longest_bridge->get_d();
+        report_.boundaries = job_.boundaries;
         report_.min_area_mm2 = job_.min_area.get_d();
         report_.inside = job_.inside;
         const auto has_outline = [&](const GcodeLayer& layer) {

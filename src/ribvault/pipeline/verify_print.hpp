@@ -26,6 +26,7 @@ struct VerifyJob {
     bool inside = false;                    ///< judge only what lies inside the outline of the layer below
     Rational min_area = 0;                   ///< mm²; regions up to this do not count
     std::optional<std::filesystem::path> report, svg, html;  ///< what to write; svg is a folder
+    bool boundaries = false;                 ///< the report has the exact boundary of every region
     int pictures = 12;                       ///< how many layers svg gets at most
     int threads = 0;                         ///< 0: all processors
     std::function<void(int done, int total)> progress = [](int, int) {};

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <nlohmann/json.hpp>
 
+#include "ribvault/report/boundary_path.hpp"
 #include "ribvault/report/packed.hpp"
 #include "ribvault/report/printed_layer_svg.hpp"
 
@@ -46,7 +47,7 @@ Json numbers(const GcodeLayer& layer, const HangingLayer& hanging) {
     Json regions = Json::array();
     for (const HangingRegion& r : hanging.regions)
         regions.push_back({rounded(r.area_mm2.lo, 1e6), rounded(r.area_mm2.hi, 1e6), rounded(r.distance_mm.hi), rounded(r.witness[0]),
-                           rounded(r.witness[1]), r.lines.empty() ? 0 : r.lines.front(), r.features});
+                           rounded(r.witness[1]), r.lines.empty() ? 0 : r.lines.front(), r.features, boundary_data(r.boundary, YAxis::up)});
     return {{"layer", hanging.layer},   {"z", rounded(hanging.z_mm)},
             {"height", rounded(hanging.height_mm)},
             {"bed", hanging.on_bed},    {"length", rounded(hanging.length_mm)},

@@ -34,6 +34,8 @@ struct HangingPiece {
 /// A region that violates equation (2).
 struct HangingRegion {
     Enclosure area_mm2, distance_mm;
+    RegionBoundary boundary;               ///< exactly
+    std::vector<std::int64_t> curve_lines; ///< per curve of the boundary, of the file: a track whose stadium has it
     std::array<double, 2> witness{};       ///< mm, rounded
     std::array<std::string, 2> witness_exact;  ///< the same as fractions, exactly
     double witness_distance_mm = 0;        ///< rounded down
@@ -87,6 +89,7 @@ struct PrintReport {
     std::string filament_source;
     std::optional<double> longest_bridge_mm;
     double min_area_mm2 = 0;
+    bool boundaries = false;               ///< whether the JSON has the regions' boundaries
     bool inside = false;  ///< only what lies inside the outline of the layer below was judged
 
     std::vector<HangingFeature> features;

@@ -54,19 +54,57 @@ Json pieces(const PrintReport& r, const std::vector<HangingPiece>& all) {
     return list;
 }
 
+Json exact(const std::array<Rational, 2>& p) { return Json::array({p[0].get_str(), p[1].get_str()}); }
+
+Json curve(const BoundaryCurve& c, std::int64_t line) {
+    Json j{{"kind", c.line ? "line" : "circle"}, {"of", c.above ? "above" : "below"}, {"line", line}};
+    if (c.line)
+        j["from_mm"] = exact(c.a), j["to_mm"] = exact(c.b);
+    else
+        j["centre_mm"] = exact(c.a);
+    j["radius_mm"] = c.radius.get_str();
+    return j;
+}
+
+/// A whole circle has no vertices: null.
+Json piece(const BoundaryPiece& p) {
+    const auto vertex = [](std::size_t v) -> Json { return v == BoundaryPiece::nowhere ? Json(nullptr) : Json(v); };
+    return Json::array({p.curve, vertex(p.from), vertex(p.to), p.turn});
+}
+
+Json boundary(const HangingRegion& region) {
+    const RegionBoundary& b = region.boundary;
+    Json curves = Json::array(), vertices = Json::array(), components = Json::array();
+    for (std::size_t k = 0; k < b.curves.size(); ++k) curves.push_back(curve(b.curves[k], region.curve_lines[k]));
+    for (const BoundaryVertex& v : b.vertices)
+        vertices.push_back({{"curves", {v.first, v.second}}, {"root", v.root}, {"x_mm", bounds({v.x[0], v.x[1]})}, {"y_mm", bounds({v.y[0], v.y[1]})}});
+    for (const RegionComponent& c : b.components) {
+        Json loops = Json::array();
+        for (const BoundaryLoop& loop : c.loops) {
+            Json pieces = Json::array();
+            for (const BoundaryPiece& p : loop) pieces.push_back(piece(p));
+            loops.push_back(std::move(pieces));
+        }
+        components.push_back({{"area_mm2", bounds({c.area_lo, c.area_hi})}, {"loops", std::move(loops)}});
+    }
+    return {{"curves", std::move(curves)}, {"vertices", std::move(vertices)}, {"components", std::move(components)}};
+}
+
 Json regions(const PrintReport& r, const std::vector<HangingRegion>& all) {
     Json list = Json::array();
     for (const HangingRegion& region : all) {
         Json names = Json::array();
         for (const int f : region.features) names.push_back(r.features[static_cast<std::size_t>(f)].name);
-        list.push_back({{"area_mm2", bounds(region.area_mm2)},
-                        {"distance_mm", bounds(region.distance_mm)},
-                        {"witness_mm", region.witness_exact},
-                        {"witness_certified", region.witness_certified},
-                        {"witness_distance_mm", bounds({region.witness_distance_mm, 0})[0]},
-                        {"lines", region.lines},
-                        {"features", names},
-                        {"ignored", region.ignored}});
+        Json j{{"area_mm2", bounds(region.area_mm2)},
+               {"distance_mm", bounds(region.distance_mm)},
+               {"witness_mm", region.witness_exact},
+               {"witness_certified", region.witness_certified},
+               {"witness_distance_mm", bounds({region.witness_distance_mm, 0})[0]},
+               {"lines", region.lines},
+               {"features", names},
+               {"ignored", region.ignored}};
+        if (r.boundaries) j["boundary"] = boundary(region);
+        list.push_back(std::move(j));
     }
     return list;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "ribvault/report/boundary_path.hpp"
 #include "ribvault/report/svg_path.hpp"
 
 namespace ribvault {
@@ -24,12 +25,10 @@ std::string fixed(double value, int places) {
     return std::string(text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, places).ptr);
 }
 
-/// All tracks of a layer for which `wanted` holds, widened by `more` mm, one path a width.
-template <class Wanted>
-std::string tracks(const GcodeLayer& layer, const char* colour, double more, Wanted&& wanted) {
+/// All tracks of a layer, one path a width.
+std::string tracks(const GcodeLayer& layer, const char* colour) {
     std::map<double, std::string> by_width;
-    for (const PrintedLine& line : printed_lines(layer))
-        if (wanted(line)) append_line(by_width[line.width_mm + more], line.points);
+    for (const PrintedLine& line : printed_lines(layer)) append_line(by_width[line.width_mm], line.points);
     std::string svg;
     for (const auto& [width, data] : by_width)
         svg += std::string("<path fill=\"none\" stroke=\"") + colour + "\" stroke-linecap=\"round\" stroke-linejoin=\"round\" stroke-width=\"" +
@@ -102,17 +101,11 @@ std::string printed_layer_svg(const GcodePrint& print, const PrintReport& report
                       " " + svg_number(height) + "\" width=\"" + fixed(width * pixels, 0) + "\" height=\"" + fixed(height * pixels, 0) + "\">\n";
     svg += "<title>" + caption(hanging) + "</title>\n<rect x=\"" + svg_number(left) + "\" y=\"" + svg_number(top) + "\" width=\"" +
            svg_number(width) + "\" height=\"" + svg_number(height) + "\" fill=\"#fff\"/>\n";
-    const auto all = [](const PrintedLine&) { return true; };
-    const auto judged = [&](const PrintedLine& line) { return report.features[line.feature].judged; };
-    for (const std::size_t k : layer.below) svg += tracks(print.layers[k], "#ccc", 0, all);
-    svg += "<g opacity=\".8\">\n" + tracks(layer, "#9fd3f5", 0, all) + "</g>\n";
-    if (!hanging.regions.empty()) {  // the judged tracks, without the material below dilated by rho
-        const std::string frame = "x=\"" + svg_number(left) + "\" y=\"" + svg_number(top) + "\" width=\"" + svg_number(width) + "\" height=\"" +
-                                  svg_number(height) + "\"";
-        svg += "<mask id=\"hangs\" maskUnits=\"userSpaceOnUse\" " + frame + ">\n<rect " + frame + " fill=\"#fff\"/>\n";
-        for (const std::size_t k : layer.below) svg += tracks(print.layers[k], "#000", 2 * report.support_radius_mm, all);
-        svg += "</mask>\n<g mask=\"url(#hangs)\">\n" + tracks(layer, "#f0a060", 0, judged) + "</g>\n";
-    }
+    for (const std::size_t k : layer.below) svg += tracks(print.layers[k], "#ccc");
+    svg += "<g opacity=\".8\">\n" + tracks(layer, "#9fd3f5") + "</g>\n";
+    std::string regions;
+    for (const HangingRegion& r : hanging.regions) regions += boundary_data(r.boundary, YAxis::down);
+    if (!regions.empty()) svg += "<path fill=\"#f0a060\" d=\"" + regions + "\"/>\n";
     svg += pieces(hanging.bridges, "#009e73") + pieces(hanging.pieces, "#d55e00");
     const auto worst = std::max_element(hanging.regions.begin(), hanging.regions.end(),
                                         [](const HangingRegion& a, const HangingRegion& b) { return a.area_mm2.middle() < b.area_mm2.middle(); });

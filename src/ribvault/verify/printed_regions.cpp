@@ -1,10 +1,10 @@
-// What violates equation (2), described: groups, areas, distances, witnesses.
+// What violates equation (2), described: groups, boundaries, distances, witnesses.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "ribvault/verify/printed_pair.hpp"
-#include "ribvault/verify/region_area.hpp"
+#include "ribvault/verify/trace_region.hpp"
 
 namespace ribvault::verify {
 
@@ -70,9 +70,12 @@ UnsupportedRegion describe(const PrintedPair& pair, const std::vector<const Open
     region.tracks.assign(tracks.begin(), tracks.end());
 
     const LowerTracks lower = pair.lower_tracks();
-    const int effort = options.area_cells + 64 * static_cast<int>(parts.size());
-    const RegionArea area = enclose_region_area(pieces, lower, pair.rho_approx, effort);
-    region.area_lo = area.lo, region.area_hi = area.hi;
+    const int effort = options.distance_cells + 64 * static_cast<int>(parts.size());
+    region.boundary = trace_region(pair, tracks, pieces);
+    for (const RegionComponent& c : region.boundary.components) {
+        region.area_lo = std::nextafter(region.area_lo + c.area_lo, 0);
+        region.area_hi = std::nextafter(region.area_hi + c.area_hi, HUGE_VAL);
+    }
     // The region's points are those of the tracks farther than ρ from the material.
     const Farthest farthest = farthest_in(pieces, lower, effort);
     const double rho_down = pair.rho_approx;  // get_d truncates
@@ -80,7 +83,6 @@ UnsupportedRegion describe(const PrintedPair& pair, const std::vector<const Open
     region.distance_hi = std::max(farthest.hi, region.distance_lo);
 
     std::optional<RationalPoint> witness = short_point(pair, tracks, farthest.x, farthest.y);
-    if (!witness && area.half > 0) witness = short_point(pair, tracks, area.x, area.y);
     for (const OpenPart* p : parts) {
         if (witness) break;
         if (p->gap) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ribvault/verify/printed_layer.hpp"
+#include "ribvault/verify/region_boundary.hpp"
 #include "ribvault/verify/verdict.hpp"
 
 namespace ribvault {
@@ -24,7 +25,8 @@ struct UnsupportedPiece {
 /// violate (2). Each connected component belongs to one group; a group may hold several.
 struct UnsupportedRegion {
     std::vector<std::size_t> tracks;          ///< the tracks above to which it belongs
-    double area_lo = 0, area_hi = 0;          ///< mm²; enclosure
+    RegionBoundary boundary;                  ///< all of it, exactly
+    double area_lo = 0, area_hi = 0;          ///< mm²; enclosure of its area, 1e-9 of it wide or less
     double distance_lo = 0, distance_hi = 0;  ///< mm; enclosure of the greatest distance of its points to the material
                                               ///< below; infinite when there is none
     std::array<Rational, 2> witness;  ///< mm; a point of the region, exactly: in a stadium above, in none of the
@@ -58,7 +60,7 @@ struct PrintedOptions {
     bool areas = true;         ///< decide (2) at all; else `supported` is that of (1)
     bool regions = true;       ///< describe what violates (2)
     bool stretches = false;    ///< where (2) is violated, without a description
-    int area_cells = 300;      ///< effort of a region's area and distance: about so many cells
+    int distance_cells = 300;  ///< effort of a region's greatest distance: about so many cells
 };
 
 /// Decides for the layer `upper` over `lower` whether every point of the judged tracks of `upper` has material of
