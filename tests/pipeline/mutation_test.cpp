@@ -71,15 +71,16 @@ void mutate(const Settings& settings, const char* size_mm, Count& count) {
                     for (const std::size_t c : {0, 1}) {
                         // to whole nanometres
                         const mpz_class nm = mpz_class(Rational((way[c] * share) * 1000000));
-                        track.b[c] -= Rational(nm, 1000000);
-                        track.b[c].canonicalize();
+                        Rational less_by(nm, 1000000);
+                        less_by.canonicalize();
+                        track.b[c] = track.b[c] - less_by;
                     }
                 } else {
                     less.tracks.erase(less.tracks.begin() + static_cast<std::ptrdiff_t>(k));
                 }
                 const bool supported = verify_printed(above, less, rho, options).supported;
                 std::vector<GridTrack> upper, lower;
-                const std::array<Rational, 2> origin = below.tracks[k].a;
+                const std::array<Rational, 2> origin = rational(below.tracks[k].a);
                 for (const PrintedTrack& t : above.tracks)
                     if (gap(t, below.tracks[k]) < 0.7) {
                         upper.push_back(grid(t, origin, 0));

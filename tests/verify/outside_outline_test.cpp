@@ -8,11 +8,11 @@ using namespace ribvault;
 
 namespace {
 
-using RationalPoint = std::array<Rational, 2>;
 
-PrintedTrack piece(RationalPoint a, RationalPoint b, bool outline = false) { return {a, b, Rational(2, 5), 0, 0, outline}; }
 
-PrintedLayer loop(const std::vector<RationalPoint>& points) {
+PrintedTrack piece(PrintedPoint a, PrintedPoint b, bool outline = false) { return {a, b, Rational(2, 5), 0, 0, outline}; }
+
+PrintedLayer loop(const std::vector<PrintedPoint>& points) {
     PrintedLayer layer;
     for (std::size_t k = 0; k < points.size(); ++k) layer.tracks.push_back(piece(points[k], points[(k + 1) % points.size()], true));
     return layer;
@@ -30,8 +30,8 @@ TEST_CASE("a track is cut exactly where it crosses the outline") {
     const PrintedLayer lower = loop({{0, 0}, {3, 0}, {3, 3}, {0, 3}});
     const auto outside = stretches_outside(above({piece({1, 1}, {4, 2})}), lower);
     REQUIRE(outside.size() == 1);
-    CHECK(outside[0].a == RationalPoint{3, Rational(5, 3)});
-    CHECK(outside[0].b == RationalPoint{4, 2});
+    CHECK(outside[0].a == PrintedPoint{3, Rational(5, 3)});
+    CHECK(outside[0].b == PrintedPoint{4, 2});
     CHECK(stretches_outside(above({piece({1, 1}, {2, 2})}), lower).empty());
     CHECK(stretches_outside(above({piece({5, 5}, {6, 6})}), lower).size() == 1);
     CHECK(stretches_outside(above({piece({-1, 1}, {4, 1})}), lower).size() == 2);
@@ -51,8 +51,8 @@ TEST_CASE("holes are outside, and an outline that does not close is none") {
     lower.tracks.insert(lower.tracks.end(), hole.tracks.begin(), hole.tracks.end());
     const auto outside = stretches_outside(above({piece({1, 4}, {8, 4})}), lower);
     REQUIRE(outside.size() == 1);
-    CHECK(outside[0].a == RationalPoint{3, 4});
-    CHECK(outside[0].b == RationalPoint{6, 4});
+    CHECK(outside[0].a == PrintedPoint{3, 4});
+    CHECK(outside[0].b == PrintedPoint{6, 4});
     lower.tracks.pop_back();
     CHECK(stretches_outside(above({piece({1, 4}, {8, 4})}), lower).size() == 1);
 }
@@ -61,7 +61,7 @@ TEST_CASE("pieces agree with even-odd counting in rationals on coarse lattices, 
     std::mt19937_64 random(7);
     const auto coordinate = [&] { return Rational(static_cast<long>(random() % 7)); };
     for (int round = 0; round < 3000; ++round) {
-        std::vector<RationalPoint> points;
+        std::vector<PrintedPoint> points;
         for (std::size_t k = 0; k < 3 + random() % 4; ++k) points.push_back({coordinate(), coordinate()});
         const PrintedLayer lower = loop(points);
         const PrintedTrack track = piece({coordinate(), coordinate()}, {coordinate(), coordinate()});
@@ -69,7 +69,7 @@ TEST_CASE("pieces agree with even-odd counting in rationals on coarse lattices, 
         const auto outside = stretches_outside(above({track}), lower);
         for (int part = 1; part < 40; ++part) {
             const Rational t(2 * part + 1, 82);
-            const RationalPoint p{track.a[0] + t * (track.b[0] - track.a[0]), track.a[1] + t * (track.b[1] - track.a[1])};
+            const PrintedPoint p{track.a[0] + t * (track.b[0] - track.a[0]), track.a[1] + t * (track.b[1] - track.a[1])};
             bool odd = false, on = false;
             for (const PrintedTrack& e : lower.tracks) {
                 const Rational c = (e.b[0] - e.a[0]) * (p[1] - e.a[1]) - (e.b[1] - e.a[1]) * (p[0] - e.a[0]);

@@ -228,7 +228,7 @@ TEST_CASE("printed: the place and the size of the coordinates make no difference
     const auto moved = [](PrintedLayer layer, const Rational& scale, const Rational& x, const Rational& y) {
         for (PrintedTrack& t : layer.tracks) {
             for (auto* end : {&t.a, &t.b}) (*end)[0] = (*end)[0] * scale + x, (*end)[1] = (*end)[1] * scale + y;
-            t.width *= scale;
+            t.width = t.width * scale;
         }
         return layer;
     };

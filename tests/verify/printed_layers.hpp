@@ -31,7 +31,7 @@ inline Rational squared_distance_to(const std::array<Rational, 2>& p, const Prin
     Rational s = n == 0 ? Rational(0) : Rational(((p[0] - t.a[0]) * dx + (p[1] - t.a[1]) * dy) / n);
     if (s < 0) s = 0;
     if (s > 1) s = 1;
-    const Rational x = t.a[0] + s * dx - p[0], y = t.a[1] + s * dy - p[1];
+    const Rational x = Rational(t.a[0]) + s * dx - p[0], y = Rational(t.a[1]) + s * dy - p[1];
     return x * x + y * y;
 }
 /// What anyone can check by hand: in a stadium above, in none below dilated by ρ.

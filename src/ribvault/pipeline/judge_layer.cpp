@@ -13,7 +13,8 @@ namespace {
 
 constexpr int distance_cells = 20000;  // effort of a region's greatest distance: more than it takes for bounds within 1e-3
 
-std::array<double, 2> place(const std::array<Rational, 2>& p) { return {p[0].get_d(), p[1].get_d()}; }
+template <class Point>
+std::array<double, 2> place(const Point& p) { return {p[0].get_d(), p[1].get_d()}; }
 
 std::array<double, 2> along(const PrintedTrack& t, double mm) {
     const auto a = place(t.a), b = place(t.b);

@@ -18,12 +18,7 @@ namespace {
 
 constexpr int rounds = 6;  ///< of mending, each of which is followed by another look
 
-Rational exact_mm(Unit length) {
-    Rational q(static_cast<long>(length), static_cast<unsigned long>(units_per_mm));
-    q.canonicalize();
-    return q;
-}
-Point lattice(const std::array<Rational, 2>& p) {
+Point lattice(const PrintedPoint& p) {
     return {round_to_lattice(p[0].get_d() * units_per_mm), round_to_lattice(p[1].get_d() * units_per_mm)};
 }
 
@@ -56,17 +51,17 @@ double distance(const Segment& s, const Segment& t) {
 
 /// With a removal gap the object's tracks hold up what is within it: they count as so much wider (Settings::reach_of_object).
 PrintedLayer held_outside(PrintedLayer below, const Settings& settings) {
-    const Rational wider = 2 * exact_mm(settings.reach_of_object() - settings.support_radius);
+    const Rational wider = 2 * Rational(printed_length(settings.reach_of_object() - settings.support_radius));
     if (!settings.outside() || wider == 0) return below;
     for (PrintedTrack& t : below.tracks)
-        if (t.feature != static_cast<int>(TrackKind::external_support)) t.width += wider;
+        if (t.feature != static_cast<int>(TrackKind::external_support)) t.width = Rational(Rational(t.width) + wider);
     return below;
 }
 
 class Holder {
 public:
     Holder(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Cavity* beside, const Settings& settings)
-        : shell_(std::move(shell)), forest_(forest), above_(above), settings_(settings), rho_(exact_mm(settings.support_radius)), beside_(beside) {
+        : shell_(std::move(shell)), forest_(forest), above_(above), settings_(settings), rho_(printed_length(settings.support_radius)), beside_(beside) {
         if (settings.gaps == Gaps::none)
             for (auto [e, end] = edges(forest_); e != end; ++e) forest_[*e].to_junction = true;
     }
@@ -326,7 +321,7 @@ HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const Printed
 }
 
 PrintVerdict judge_print(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings) {
-    const Rational rho = exact_mm(settings.support_radius);
+    const Rational rho = printed_length(settings.support_radius);
     PrintedOptions options;
     options.regions = false, options.stretches = true;
     const std::vector<PrintedTrack> outside = settings.outside() ? std::vector<PrintedTrack>() : stretches_outside(above, below);

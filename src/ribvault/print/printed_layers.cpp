@@ -16,17 +16,20 @@ Rational in_mm(std::int64_t value) {
     return mm;
 }
 
+Millimetres to_mm(Decimal d) {
+    constexpr std::int64_t picometre = decimal_one / Millimetres::picometres_per_mm;
+    if (d.value % picometre == 0) return Millimetres::of_picometres(static_cast<std::int64_t>(d.value / picometre));  // decimal_limit is far below 9e9
+    return to_rational(d);
+}
+
 void append(const GcodeLayer& layer, const std::vector<char>& outline, std::int64_t widen_chords, PrintedLayer& to) {
-    std::vector<std::array<Rational, 2>> points;
+    std::vector<PrintedPoint> points;
     points.reserve(layer.points.size());
-    for (const GcodePoint& p : layer.points) points.push_back({to_rational(p.x), to_rational(p.y)});
+    for (const GcodePoint& p : layer.points) points.push_back({to_mm(p.x), to_mm(p.y)});
     to.tracks.reserve(to.tracks.size() + layer.tracks.size());
-    std::int64_t last_width = 0;
-    Rational width;
     for (const GcodeTrack& t : layer.tracks) {
         const std::int64_t wide = std::max<std::int64_t>(1, t.width + (t.chord ? widen_chords : 0));
-        if (wide != last_width) width = in_mm(last_width = wide);
-        to.tracks.push_back({points[t.a], points[t.b], width, t.feature, t.line, !outline.empty() && outline[static_cast<std::size_t>(&t - layer.tracks.data())] != 0});
+        to.tracks.push_back({points[t.a], points[t.b], Millimetres::of_picometres(wide), t.feature, t.line, !outline.empty() && outline[static_cast<std::size_t>(&t - layer.tracks.data())] != 0});
     }
 }
 

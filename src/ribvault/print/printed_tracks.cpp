@@ -1,26 +1,18 @@
 #include "ribvault/print/printed_tracks.hpp"
 
 namespace ribvault {
-namespace {
-
-Rational mm(Unit length) {
-    Rational q(static_cast<long>(length), static_cast<unsigned long>(units_per_mm));
-    q.canonicalize();
-    return q;
-}
-
-}  // namespace
+Millimetres printed_length(Unit length) { return Millimetres::of_picometres(length * (Millimetres::picometres_per_mm / units_per_mm)); }
 
 PrintedLayer printed_layer(const LayerPlan& plan) {
     PrintedLayer layer;
     for (std::size_t k = 0; k < plan.tracks.size(); ++k)
         for (const ToolPath& path : plan.tracks[k].paths) {
             PrintedTrack track;
-            track.width = mm(path.width);
+            track.width = printed_length(path.width);
             track.feature = static_cast<int>(path.kind);
             track.line = static_cast<std::int64_t>(k);
             track.outline = path.closed && path.kind == TrackKind::outer_perimeter;
-            track.a = {mm(path.points.front().x), mm(path.points.front().y)};
+            track.a = {printed_length(path.points.front().x), printed_length(path.points.front().y)};
             const std::size_t n = path.points.size();
             if (n == 1) {
                 track.b = track.a;
@@ -28,7 +20,7 @@ PrintedLayer printed_layer(const LayerPlan& plan) {
             }
             for (std::size_t i = 1; i < n + (path.closed && n > 1 ? 1 : 0); ++i) {
                 const Point to = path.points[i % n];
-                track.b = {mm(to.x), mm(to.y)};
+                track.b = {printed_length(to.x), printed_length(to.y)};
                 layer.tracks.push_back(track);
                 track.a = track.b;
             }

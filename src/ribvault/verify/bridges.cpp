@@ -18,7 +18,7 @@ double cross(const Vector& a, const Vector& b) { return a[0] * b[1] - a[1] * b[0
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
 double norm(const Vector& a) { return std::hypot(a[0], a[1]); }
 
-Vector place(const std::array<Rational, 2>& p) { return {p[0].get_d(), p[1].get_d()}; }
+Vector place(const PrintedPoint& p) { return {p[0].get_d(), p[1].get_d()}; }
 
 double length(const PrintedTrack& t) { return norm(minus(place(t.b), place(t.a))); }
 
@@ -113,7 +113,8 @@ WithoutBridges take_out_bridges(const PrintedLayer& upper, const std::vector<cha
         const double whole = length(t);
         const auto at = [&](double mm) {
             const Rational share = whole > 0 ? Rational(std::clamp(mm / whole, 0.0, 1.0)) : Rational(0);
-            return std::array<Rational, 2>{t.a[0] + share * (t.b[0] - t.a[0]), t.a[1] + share * (t.b[1] - t.a[1])};
+            const std::array<Rational, 2> a = rational(t.a), b = rational(t.b);
+            return PrintedPoint{Rational(a[0] + share * (b[0] - a[0])), Rational(a[1] + share * (b[1] - a[1]))};
         };
         double done = 0;
         cuts[k].push_back({whole, whole});

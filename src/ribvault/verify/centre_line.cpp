@@ -144,7 +144,7 @@ bool dot_covered(const PrintedTrack& dot, const PreparedTrack& prepared, const B
         const double d = centre_distance(below.prepared[k], prepared.ax, prepared.ay), r = below.radii[k].get_d();
         if (d > r + margin) continue;
         covered = d < r - margin;
-        if (!covered) exactly = true, covered = compare_distance(dot.a, below.tracks[k], below.radii[k]) <= 0;
+        if (!covered) exactly = true, covered = compare_distance(rational(dot.a), below.tracks[k], below.radii[k]) <= 0;
         if (covered) break;
     }
     ++(exactly ? stages.rational : stages.interval);
@@ -158,20 +158,21 @@ bool dot_covered(const PrintedTrack& dot, const PreparedTrack& prepared, const B
 // |cross(v, p + t u)| <= R sqrt(n).
 std::optional<std::array<QuadraticNumber, 2>> exact_stretch(const PrintedTrack& track, const PrintedTrack& below,
                                                             const Rational& radius) {
-    const Rational ux = track.b[0] - track.a[0], uy = track.b[1] - track.a[1], uu = ux * ux + uy * uy;
+    const RationalPoint a = rational(track.a), b = rational(track.b), c = rational(below.a), d = rational(below.b);
+    const Rational ux = b[0] - a[0], uy = b[1] - a[1], uu = ux * ux + uy * uy;
     std::optional<Stretch2> all;
-    const auto disc = [&](const std::array<Rational, 2>& c) {
-        const Rational px = track.a[0] - c[0], py = track.a[1] - c[1], up = ux * px + uy * py;
+    const auto disc = [&](const RationalPoint& centre) {
+        const Rational px = a[0] - centre[0], py = a[1] - centre[1], up = ux * px + uy * py;
         const Rational under = up * up - uu * (px * px + py * py - radius * radius);
         if (under < 0) return;
         const Rational middle = -up / uu, root = 1 / uu;
         unite(all, {quadratic(middle, Rational(-root), under), quadratic(middle, root, under)});
     };
-    disc(below.a);
-    const Rational vx = below.b[0] - below.a[0], vy = below.b[1] - below.a[1], n = vx * vx + vy * vy;
+    disc(c);
+    const Rational vx = d[0] - c[0], vy = d[1] - c[1], n = vx * vx + vy * vy;
     if (n == 0) return all;
-    disc(below.b);
-    const Rational px = track.a[0] - below.a[0], py = track.a[1] - below.a[1];
+    disc(d);
+    const Rational px = a[0] - c[0], py = a[1] - c[1];
     const Rational pv = px * vx + py * vy, uv = ux * vx + uy * vy;
     const Rational turn = vx * py - vy * px, change = vx * uy - vy * ux;
     std::optional<QuadraticNumber> lo, hi;

@@ -25,7 +25,7 @@ std::optional<std::array<QuadraticNumber, 2>> exact_stretch(const PrintedTrack& 
 struct Below {
     std::span<const PrintedTrack> tracks;     ///< of the layer below
     std::span<const PreparedTrack> prepared;  ///< the same
-    std::span<const Rational> radii;          ///< half their widths plus ρ
+    std::span<const Millimetres> radii;       ///< half their widths plus ρ
     std::span<const int> which;               ///< those that come near
     std::span<const FrameStadium> seen;       ///< those in the frame of the track
 };

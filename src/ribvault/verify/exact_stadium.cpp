@@ -15,7 +15,7 @@ Rational squared_distance(const RationalPoint& p, const RationalPoint& a, const 
 }
 
 int compare_distance(const RationalPoint& p, const PrintedTrack& track, const Rational& radius) {
-    return cmp(squared_distance(p, track.a, track.b), Rational(radius * radius));
+    return cmp(squared_distance(p, rational(track.a), rational(track.b)), Rational(radius * radius));
 }
 
 }  // namespace ribvault::verify

@@ -21,7 +21,7 @@ struct LocalProblem {
     /// Which track's centre line each piece and site is.
     std::vector<int> pieces, sites;
 
-    std::vector<Vec<Rational>> points;
+    std::vector<Vec<Rational>> points;  ///< the vertices where the scale does not make them integers
     std::vector<Vertex> vertices;
     std::deque<ExactRadius> radii;
 

@@ -48,7 +48,7 @@ Corners corners_of(TraceProblem& trace, const TraceLoop& loop, unsigned bits) {
 }
 
 Vec<Rational> centre_of(const TraceProblem& trace, const Curve& circle) {
-    return trace.local.points[static_cast<std::size_t>(circle.a)];
+    return exact_point<Rational>(trace.local.vertices[static_cast<std::size_t>(circle.a)]);
 }
 
 /// A number of MPFR's, rounded to nearest by every operation.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 
 namespace ribvault {
 namespace {
@@ -19,6 +21,48 @@ struct Approximate {
     double size() const { return std::max({std::fabs(ax), std::fabs(ay), std::fabs(bx), std::fabs(by)}); }
 };
 
+/// The edges in rows by the heights that they reach.
+class Rows {
+public:
+    Rows() = default;
+    /// Heights are off by less than `margin`.
+    Rows(const std::vector<Approximate>& edges, double margin) {
+        if (edges.empty()) return;
+        double top = -HUGE_VAL;
+        low_ = HUGE_VAL;
+        for (const Approximate& e : edges) low_ = std::min({low_, e.ay, e.by}), top = std::max({top, e.ay, e.by});
+        low_ -= 2 * margin, top += 2 * margin;
+        rows_ = static_cast<int>(std::min<std::size_t>(edges.size(), 4096));
+        inverse_ = rows_ / std::max(top - low_, 1e-300);
+        starts_.assign(static_cast<std::size_t>(rows_) + 1, 0);
+        const auto enter = [&](const auto& put) {
+            for (std::size_t k = 0; k < edges.size(); ++k)
+                for (int r = row(std::min(edges[k].ay, edges[k].by) - 2 * margin), end = row(std::max(edges[k].ay, edges[k].by) + 2 * margin); r <= end; ++r)
+                    put(static_cast<std::size_t>(r), static_cast<std::uint32_t>(k));
+        };
+        enter([&](std::size_t r, std::uint32_t) { ++starts_[r + 1]; });
+        for (std::size_t r = 1; r < starts_.size(); ++r) starts_[r] += starts_[r - 1];
+        members_.resize(starts_.back());
+        std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+        enter([&](std::size_t r, std::uint32_t k) { members_[next[r]++] = k; });
+    }
+
+    /// Every edge that comes between the heights, perhaps more than once.
+    template <class Visit>
+    void visit(double from, double to, const Visit& visit) const {
+        if (rows_ == 0) return;
+        const auto first = static_cast<std::size_t>(row(from)), last = static_cast<std::size_t>(row(to));
+        for (std::uint32_t i = starts_[first]; i < starts_[last + 1]; ++i) visit(members_[i]);
+    }
+
+private:
+    int row(double y) const { return static_cast<int>(std::clamp((y - low_) * inverse_, 0.0, rows_ - 1.0)); }
+
+    double low_ = 0, inverse_ = 0;
+    int rows_ = 0;
+    std::vector<std::uint32_t> starts_, members_;
+};
+
 class Outline {
 public:
     explicit Outline(const PrintedLayer& lower) {
@@ -30,37 +74,54 @@ public:
         }
         if (!closed()) edges_.clear(), doubles_.clear();
         for (const Approximate& e : doubles_) largest_ = std::max(largest_, e.size());
+        rows_ = Rows(doubles_, 0x1p-46 * largest_);
     }
     bool empty() const { return edges_.empty(); }
-    const Rational& width() const { return narrowest_->width; }
+    const Millimetres& width() const { return narrowest_->width; }
 
     void add_outside(const PrintedTrack& track, std::vector<PrintedTrack>& result) const {
         const Approximate t(track);
-        const double c = std::max(largest_, t.size());
-        std::vector<Rational> cuts{0, 1};
-        for (std::size_t k = 0; k < edges_.size(); ++k)
-            if (may_meet(t, doubles_[k], c)) add_cuts(track, *edges_[k], cuts);
+        const double c = std::max(largest_, t.size()), margin = 0x1p-46 * c;
+        std::vector<Rational> cuts;
+        if (track.a != track.b)
+            rows_.visit(std::min(t.ay, t.by) - margin, std::max(t.ay, t.by) + margin, [&](std::uint32_t k) {
+                if (may_meet(t, doubles_[k], c)) add_cuts(track, *edges_[k], cuts);
+            });
+        if (cuts.empty()) {
+            const bool in = inside((t.ax + t.bx) / 2, (t.ay + t.by) / 2, [&] { return between(track, Rational(1, 2)); });
+            if (!in) add(track, track.a, track.b, result);
+            return;
+        }
         std::sort(cuts.begin(), cuts.end());
         cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
-        const auto at = [&](const Rational& s) -> RationalPoint {
-            if (s == 0) return track.a;
-            if (s == 1) return track.b;
-            return {track.a[0] + s * (track.b[0] - track.a[0]), track.a[1] + s * (track.b[1] - track.a[1])};
-        };
-        if (track.a == track.b) cuts = {0, 0};
-        for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-            if (inside(at((cuts[k] + cuts[k + 1]) / 2))) continue;
-            PrintedTrack piece = track;
-            piece.a = at(cuts[k]), piece.b = at(cuts[k + 1]), piece.width = width(), piece.outline = false;
-            result.push_back(std::move(piece));
+        cuts.push_back(1);
+        PrintedPoint from = track.a;
+        Rational before = 0;
+        for (const Rational& cut : cuts) {
+            const PrintedPoint to = cut == 1 ? track.b : printed(between(track, cut));
+            const RationalPoint middle = between(track, Rational((before + cut) / 2));
+            if (!inside(middle[0].get_d(), middle[1].get_d(), [&] { return middle; })) add(track, from, to, result);
+            from = to, before = cut;
         }
     }
 
 private:
+    void add(const PrintedTrack& track, const PrintedPoint& from, const PrintedPoint& to, std::vector<PrintedTrack>& result) const {
+        PrintedTrack piece = track;
+        piece.a = from, piece.b = to, piece.width = width(), piece.outline = false;
+        result.push_back(std::move(piece));
+    }
+    static PrintedPoint printed(const RationalPoint& p) { return {p[0], p[1]}; }
+    /// The point at `s` of the way from a to b.
+    static RationalPoint between(const PrintedTrack& track, const Rational& s) {
+        const RationalPoint a = rational(track.a), b = rational(track.b);
+        return {Rational(a[0] + s * (b[0] - a[0])), Rational(a[1] + s * (b[1] - a[1]))};
+    }
+
     bool closed() const {
-        std::vector<const RationalPoint*> ends;
+        std::vector<const PrintedPoint*> ends;
         for (const PrintedTrack* e : edges_) ends.push_back(&e->a), ends.push_back(&e->b);
-        std::sort(ends.begin(), ends.end(), [](const RationalPoint* p, const RationalPoint* q) { return *p < *q; });
+        std::sort(ends.begin(), ends.end(), [](const PrintedPoint* p, const PrintedPoint* q) { return *p < *q; });
         for (std::size_t k = 0; k < ends.size();) {
             std::size_t same = k;
             while (same < ends.size() && *ends[same] == *ends[k]) ++same;
@@ -89,45 +150,55 @@ private:
 
     /// Where along the track (0 to 1) it meets the edge; both ends of a common piece.
     static void add_cuts(const PrintedTrack& track, const PrintedTrack& edge, std::vector<Rational>& cuts) {
-        const Rational ux = track.b[0] - track.a[0], uy = track.b[1] - track.a[1];
-        const Rational c = cross(edge.a, edge.b, track.a), d = cross(edge.a, edge.b, track.b);
+        const RationalPoint a = rational(track.a), b = rational(track.b), from = rational(edge.a), to = rational(edge.b);
+        const Rational ux = b[0] - a[0], uy = b[1] - a[1];
+        const Rational c = cross(from, to, a), d = cross(from, to, b);
         const auto add = [&](const Rational& t) {
             if (t > 0 && t < 1) cuts.push_back(t);
         };
         if (c != d) {
             const Rational t = c / (c - d);
-            const Rational e = cross(track.a, track.b, edge.a), f = cross(track.a, track.b, edge.b);
+            const Rational e = cross(a, b, from), f = cross(a, b, to);
             if (sgn(e) * sgn(f) <= 0) add(t);
         } else if (c == 0) {
             const Rational uu = ux * ux + uy * uy;
-            if (uu == 0) return;
-            for (const RationalPoint* p : {&edge.a, &edge.b}) add(((*p)[0] - track.a[0]) * ux / uu + ((*p)[1] - track.a[1]) * uy / uu);
+            for (const RationalPoint* p : {&from, &to}) add(((*p)[0] - a[0]) * ux / uu + ((*p)[1] - a[1]) * uy / uu);
         }
     }
 
-    /// Odd number of edges crossed by the ray to +x. A vertex on the ray counts as above it.
-    bool inside(const RationalPoint& p) const {
-        const double x = p[0].get_d(), y = p[1].get_d(), c = std::max({largest_, std::fabs(x), std::fabs(y)}), margin = 0x1p-50 * c;
-        const auto above = [&](double approximate, const Rational& exact) {
+    /// Whether a ray to +x crosses an odd number of edges. A vertex on the ray counts as above it. (x, y) is within 2^-51 c of the
+    /// point that `exact` gives, c being the largest coordinate.
+    template <class Exact>
+    bool inside(double x, double y, const Exact& exact) const {
+        const double c = std::max({largest_, std::fabs(x), std::fabs(y)}), margin = 0x1p-50 * c;
+        std::optional<RationalPoint> point;
+        const auto p = [&]() -> const RationalPoint& { return point ? *point : point.emplace(exact()); };
+        const auto above = [&](double approximate, const Millimetres& height) {
             if (approximate > y + margin) return true;
             if (approximate < y - margin) return false;
-            return exact >= p[1];
+            return Rational(height) >= p()[1];
         };
-        bool odd = false;
-        for (std::size_t k = 0; k < edges_.size(); ++k) {
+        std::uint32_t crossed = 0;
+        const auto cross_edge = [&](std::uint32_t k) {
             const Approximate& e = doubles_[k];
             const bool up = above(e.by, edges_[k]->b[1]);
-            if (above(e.ay, edges_[k]->a[1]) == up) continue;
-            if (std::max(e.ax, e.bx) < x - margin) continue;
+            if (above(e.ay, edges_[k]->a[1]) == up) return;
+            if (std::max(e.ax, e.bx) < x - margin) return;
             int side = std::min(e.ax, e.bx) > x + margin ? (up ? 1 : -1) : turn(e.ax, e.ay, e.bx, e.by, x, y, c);
-            if (side == 0) side = sgn(cross(edges_[k]->a, edges_[k]->b, p));
-            if (side == (up ? 1 : -1)) odd = !odd;
-        }
-        return odd;
+            if (side == 0) side = sgn(cross(rational(edges_[k]->a), rational(edges_[k]->b), p()));
+            if (side == (up ? 1 : -1)) ++crossed;
+        };
+        // The rows allow for errors of 2^-45 of the edges' largest coordinate, so y may be off by that.
+        if (c <= 16 * largest_)
+            rows_.visit(y, y, cross_edge);
+        else
+            for (std::uint32_t k = 0; k < edges_.size(); ++k) cross_edge(k);
+        return crossed % 2 != 0;
     }
 
     std::vector<const PrintedTrack*> edges_;
     std::vector<Approximate> doubles_;
+    Rows rows_;
     const PrintedTrack* narrowest_ = nullptr;
     double largest_ = 0;
 };

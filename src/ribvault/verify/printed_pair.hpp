@@ -14,7 +14,7 @@ namespace ribvault::verify {
 struct PrintedPair {
     std::span<const PrintedTrack> upper, lower;
     std::vector<PreparedTrack> above, below;
-    std::vector<Rational> radii;  ///< of the lower tracks: half the width plus ρ
+    std::vector<Millimetres> radii;  ///< of the lower tracks: half the width plus ρ
     Rational rho;
     double rho_approx = 0, margin = 0;
     TrackGrid grid;  ///< over `below`, dilated by ρ

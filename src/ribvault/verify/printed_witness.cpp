@@ -70,7 +70,7 @@ void build_part_problem(const PrintedPair& pair, const OpenPart& part, LocalProb
 
 bool in_upper(const PrintedPair& pair, int track, const RationalPoint& p) {
     const PrintedTrack& t = pair.upper[static_cast<std::size_t>(track)];
-    return compare_distance(p, t, Rational(t.width / 2)) <= 0;
+    return compare_distance(p, t, Rational(Rational(t.width) / 2)) <= 0;
 }
 
 bool outside_lower(const PrintedPair& pair, const RationalPoint& p) {
@@ -123,7 +123,8 @@ std::optional<RationalPoint> witness_from(const PrintedPair& pair, int track, co
 }
 
 RationalPoint point_of_gap(const PrintedTrack& track, const CentreGap& gap) {
-    if (track.a == track.b) return track.a;
+    const RationalPoint a = rational(track.a), b = rational(track.b);
+    if (a == b) return a;
     // The multiple of the largest power of two inside the stretch.
     Rational t;
     for (unsigned bits = 1;; bits += bits < 16 ? 1 : bits / 4) {
@@ -131,7 +132,7 @@ RationalPoint point_of_gap(const PrintedTrack& track, const CentreGap& gap) {
         t = rounded(Rational((from[1] + to[0]) / 2), bits);
         if (t > from[1] && t < to[0]) break;
     }
-    return {Rational(track.a[0] + t * (track.b[0] - track.a[0])), Rational(track.a[1] + t * (track.b[1] - track.a[1]))};
+    return {Rational(a[0] + t * (b[0] - a[0])), Rational(a[1] + t * (b[1] - a[1]))};
 }
 
 }  // namespace ribvault::verify

@@ -46,7 +46,7 @@ public:
 
 private:
     int next() const { return static_cast<int>(trace_.curves.size()); }
-    const Vec<Rational>& point(int vertex) const { return trace_.local.points[static_cast<std::size_t>(vertex)]; }
+    Vec<Rational> point(int vertex) const { return exact_point<Rational>(trace_.local.vertices[static_cast<std::size_t>(vertex)]); }
     void enter(int solid, const Curve& curve) {
         trace_.curves.push_back(curve);
         trace_.owner.push_back(solid);
@@ -162,14 +162,14 @@ void build_trace_problem(TraceProblem& trace, std::span<const int> tracks, std::
         solid.above = above, solid.track = track, solid.stadium = stadium;
         solid.approx = above ? pair.above[k] : pair.below[k];
         const PrintedTrack& exact = above ? pair.upper[k] : pair.lower[k];
-        solid.a = exact.a, solid.b = exact.b;
-        const Vec<Rational>& p = local.points[static_cast<std::size_t>(stadium.a)];
-        if (local.to_mm(p.x, p.y) != exact.a) {  // sites may be turned round
+        solid.a = rational(exact.a), solid.b = rational(exact.b);
+        const Vec<Rational> p = exact_point<Rational>(local.vertices[static_cast<std::size_t>(stadium.a)]);
+        if (local.to_mm(p.x, p.y) != solid.a) {  // sites may be turned round
             std::swap(solid.a, solid.b);
             std::swap(solid.approx.ax, solid.approx.bx), std::swap(solid.approx.ay, solid.approx.by);
             solid.approx.dx = -solid.approx.dx, solid.approx.dy = -solid.approx.dy;
         }
-        solid.radius = above ? Rational(pair.upper[k].width / 2) : pair.radii[k];
+        solid.radius = above ? Rational(Rational(pair.upper[k].width) / 2) : Rational(pair.radii[k]);
         solid.approx.half = solid.radius.get_d();
         trace.solids.push_back(std::move(solid));
     };

@@ -21,7 +21,7 @@ void check(const PrintedLayer& upper, const PrintedLayer& lower, const Rational&
         throw Error(ErrorKind::usage, "the verifier needs one entry of `judged` for each track above, or none");
     for (const PrintedLayer* layer : {&upper, &lower})
         for (const PrintedTrack& t : layer->tracks)
-            if (t.width <= 0)
+            if (t.width <= Millimetres())
                 throw Error(ErrorKind::usage, "the track of line " + std::to_string(t.line) +
                                                   " has no positive width, so it is no material");
 }
@@ -70,9 +70,9 @@ bool Judge::follows_one() {
     }
     for (const int k : undecided) {
         const auto i = static_cast<std::size_t>(k);
-        const Rational reach = pair_.radii[i] - exact.width / 2;
-        if (reach < 0 || compare_distance(exact.a, pair_.lower[i], reach) > 0 ||
-            compare_distance(exact.b, pair_.lower[i], reach) > 0)
+        const Rational reach = Rational(pair_.radii[i]) - Rational(exact.width) / 2;
+        if (reach < 0 || compare_distance(rational(exact.a), pair_.lower[i], reach) > 0 ||
+            compare_distance(rational(exact.b), pair_.lower[i], reach) > 0)
             continue;
         ++verdict_.stages.rational;
         return true;
@@ -89,7 +89,8 @@ void Judge::report_gap(const CentreGap& gap) {
     std::array<double, 2>& total = verdict_.unsupported_length[track_];
     if (exact.a != exact.b) {
         // Lengths from squared ones: s = sqrt(t^2 |b - a|^2). Truncated quotients are below, the next double is above.
-        const Rational ux = exact.b[0] - exact.a[0], uy = exact.b[1] - exact.a[1], uu = ux * ux + uy * uy;
+        const RationalPoint a = rational(exact.a), b = rational(exact.b);
+        const Rational ux = b[0] - a[0], uy = b[1] - a[1], uu = ux * ux + uy * uy;
         const auto down = [&](const Rational& a) {
             return a <= 0 ? 0 : enclose(QuadraticNumber{0, a, uu}, 80)[0].get_d();
         };
@@ -156,9 +157,9 @@ bool Judge::violates(std::vector<OpenPart> parts, bool known) {
             PrintedTrack piece = whole;
             if (t.inverse_norm > 0)
                 for (const std::size_t c : {0, 1}) {
-                    const Rational d = whole.b[c] - whole.a[c];
-                    piece.a[c] += d * Rational(std::clamp(part.stretch.lo / t.length, 0.0, 1.0));
-                    piece.b[c] = whole.a[c] + d * Rational(std::clamp(part.stretch.hi / t.length, 0.0, 1.0));
+                    const Rational from(whole.a[c]), d = Rational(whole.b[c]) - from;
+                    piece.a[c] = Rational(from + d * Rational(std::clamp(part.stretch.lo / t.length, 0.0, 1.0)));
+                    piece.b[c] = Rational(from + d * Rational(std::clamp(part.stretch.hi / t.length, 0.0, 1.0)));
                 }
             part.piece = std::move(piece);
             if (!uncovered(part)) continue;
@@ -218,7 +219,9 @@ PrintedVerdict verify_printed(const PrintedLayer& upper, const PrintedLayer& low
     pair.upper = upper.tracks, pair.lower = lower.tracks;
     pair.above = prepare(upper), pair.below = prepare(lower);
     pair.rho = rho, pair.rho_approx = rho.get_d();
-    for (const PrintedTrack& t : lower.tracks) pair.radii.push_back(t.width / 2 + rho);
+    const Millimetres reach(rho);
+    pair.radii.reserve(lower.tracks.size());
+    for (const PrintedTrack& t : lower.tracks) pair.radii.push_back(half_plus(t.width, reach));
     pair.margin = margin_of(largest_coordinate(pair.above, pair.below, pair.rho_approx));
     pair.grid = TrackGrid(pair.below, pair.rho_approx + 4 * pair.margin);
     Judge judge(pair, options, verdict);
