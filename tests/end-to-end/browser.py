@@ -1,5 +1,6 @@
 """A headless Chromium, spoken to over a pipe by its DevTools protocol; needs the standard library and the browser only."""
 import base64
+import gc
 import json
 import os
 import pathlib
@@ -25,6 +26,10 @@ class Browser:
     def __init__(self, program, width=1280, height=900, flags=()):
         self.console, self.requests = [], []
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        gc.collect()  # closes what was left open now, not while the child starts
+        low = [os.open(os.devnull, os.O_RDWR)]  # so that 3 and 4 are open, and not subprocess's own
+        while low[-1] < 8:
+            low.append(os.open(os.devnull, os.O_RDWR))
         to_child, self.out = os.pipe()
         self.inn, from_child = os.pipe()
 
@@ -36,7 +41,8 @@ class Browser:
                    "--disable-background-networking", "--disable-component-update", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--hide-scrollbars", *flags, "about:blank"]
         self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, pass_fds=(3, 4, to_child, from_child),
                                         preexec_fn=descriptors, start_new_session=True)
-        os.close(to_child), os.close(from_child)
+        for descriptor in (to_child, from_child, *low):
+            os.close(descriptor)
         self.serial, self.buffer, self.session = 0, b"", None
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]

@@ -1,0 +1,153 @@
+#!/usr/bin/python3
+"""Makes the paper's figures from our own runs, and a page that shows them all.
+
+Usage: paper_figures/make.py [NUMBER ...] [--models FOLDER] [--output FOLDER]; scripts/paper-figures installs and builds first.
+Every figure is written as PDF, SVG and PNG; what did not change is not made again. Exit code 1 when a figure could not be made.
+"""
+import argparse
+import html
+import importlib
+import pathlib
+import shlex
+import sys
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "experiments")]
+try:
+    import look
+except ModuleNotFoundError as missing:
+    sys.exit(f"make.py: {missing}; install Debian's python3-matplotlib (scripts/paper-figures does)")
+import camera  # noqa: E402
+import results  # noqa: E402
+from lab.registry import Registry  # noqa: E402
+
+NO_COVER = ("--top-layers", "0", "--bottom-layers", "0")
+# figure -> its inputs in the order of its INPUTS: (kind, model, options), or (picture, model, options, cut), or (table, name)
+RECIPES = {
+    1: [("picture", "bunny", NO_COVER, "whole"), ("picture", "bunny", NO_COVER, "front")],
+    2: [("layers", "bunny00", NO_COVER)],
+    6: [("picture", "elephant", NO_COVER, "left")],
+    7: [("picture", "armadillo", NO_COVER, "front")],
+    9: [("layers", "cube", ())],
+    10: [("picture", "kitten", NO_COVER, "left"), ("picture", "kitten", NO_COVER, "right")],
+    11: [("stages", "bunny00", ())],
+    12: [("layers", "cube", ()), ("layers", "cube", ("--no-straighten",))],
+    13: [("tree", "cube", ("--layer", "95"))],
+    14: [("tree", "cube", ("--layer", "95"))],
+    15: [("stages", "cube", ("--layer", "98"))],
+    16: [("stages", "cube", ("--layer", "98"))],
+    17: [("layers", "cube", ("--from", "97", "--no-branch-bonus")), ("layers", "cube", ("--from", "97"))],
+    18: [("stages", "cube", ("--scale", "0.35", "--layer", "33"))],
+    19: [("tree", "cube", ("--layer", "92", "--branches", "9"))],
+    20: [("layers", "cube", ("--gaps", "paper"))],
+    24: [("table", "figure24")],
+    25: [("layers", "low_roof", ()), ("layers", "far_tip", ())],
+}
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("numbers", nargs="*", type=int, metavar="NUMBER", help=f"of figures: {', '.join(map(str, RECIPES))} (default: all)")
+    parser.add_argument("--models", type=pathlib.Path, help="folder with the paper's models; without, others stand in")
+    parser.add_argument("--results", type=pathlib.Path, default=results.ROOT / "results", help="where experiments/run.py put its tables")
+    parser.add_argument("--output", type=pathlib.Path, help="default: RESULTS/paper_figures")
+    chosen = parser.parse_args()
+    for number in chosen.numbers:
+        if number not in RECIPES:
+            parser.error(f"figure {number}: there is no script for it; there are {', '.join(map(str, RECIPES))}")
+    chosen.output = chosen.output or chosen.results / "paper_figures"
+    return chosen
+
+
+class Inputs:
+    def __init__(self, chosen):
+        self.tables, self.folder = chosen.results / "tables", chosen.output / "inputs"
+        self.registry = Registry(chosen.results / "models", chosen.models, results.program("ribvault_baselines"))
+        self.notes = []
+
+    def model(self, name, options):
+        model = self.registry.or_stand_in(self.registry[name])
+        if model is None:
+            raise results.Unusable(f"{name}: neither the paper's file (--models) nor what stands in for it is here (libcgal-demo)")
+        if "stand-in" in model.origin:
+            self.notes.append(f"{model.title}")
+        placement = () if "--scale" in options else model.placement
+        return pathlib.Path(model.file), (*placement, *options)
+
+    def file(self, recipe):
+        """The input's path."""
+        if recipe[0] == "table":
+            return self.tables / f"{recipe[1]}.csv"
+        kind, name, options = recipe[:3]
+        model, placed = self.model(name, options)
+        if kind == "picture":
+            return camera.photographed(camera.page_of(model, placed, self.folder), recipe[3], self.folder)
+        return results.made(kind, model, placed, self.folder)
+
+
+def make(number, inputs, output):
+    """The figure's facts for the page: caption, command, stand-ins."""
+    script = HERE / f"figure{number:02d}.py"
+    module = importlib.import_module(script.stem)
+    stem = output / script.stem
+    inputs.notes = []
+    files = [inputs.file(recipe) for recipe in RECIPES[number]]
+    given = {name: results.load(file, kind) for (name, kind), file in zip(module.INPUTS.items(), files)}
+    stamp = results.digest(script.read_bytes(), (HERE / "look.py").read_bytes(), *(f.read_bytes() for f in files))
+    kept = output / f"{script.stem}.stamp"
+    fresh = kept.exists() and kept.read_text() == stamp and all(stem.with_suffix(s).exists() for s in (".pdf", ".svg", ".png"))
+    if not fresh:
+        look.save(module.draw(**given), stem)
+        kept.write_text(stamp)
+    command = shlex.join(["paper_figures/" + script.name, *(str(f) for f in files), "-o", str(stem)])
+    return {"number": number, "caption": " ".join(module.__doc__.split()), "command": command, "notes": list(inputs.notes), "made": not fresh}
+
+
+STYLE = """body { font: 16px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; color: #222; background: #fff }
+main { display: grid; grid-template-columns: repeat(auto-fill, minmax(20rem, 1fr)); gap: 1.5rem } figure { margin: 0; border: 1px solid #ddd; border-radius: 6px; padding: 1rem }
+img { width: 100%; height: 15rem; object-fit: contain; background: #fff } code { font-size: .72rem; overflow-wrap: anywhere; color: #444 } .missing { color: #a33 }
+a { color: #005a9c }
+@media (prefers-color-scheme: dark) { body { background: #16181c; color: #e6e6e6 } figure { border-color: #3a3d44 } code { color: #b8bcc4 } a { color: #7cc4ff } .missing { color: #ff9c8a } }"""
+
+
+def index(entries, output):
+    parts = []
+    for e in entries:
+        name = f"figure{e['number']:02d}"
+        if "missing" in e:
+            parts.append(f"<figure id=\"{name}\"><figcaption><b>Figure {e['number']}</b> <span class=\"missing\">not made: {html.escape(e['missing'])}</span></figcaption></figure>")
+            continue
+        caption = html.escape(e["caption"])
+        notes = f" <i>Drawn on {html.escape(', '.join(sorted(set(e['notes']))))}.</i>" if e["notes"] else ""
+        parts.append(f"<figure id=\"{name}\"><a href=\"{name}.svg\"><img src=\"{name}.png\" alt=\"{caption}\" loading=\"lazy\"></a><figcaption>{caption}{notes} "
+                     f"<a href=\"{name}.pdf\">PDF</a> <a href=\"{name}.svg\">SVG</a><br><code>{html.escape(e['command'])}</code></figcaption></figure>")
+    page = ("<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>Figures of Ribbed Support Vaults, from our runs</title>"
+            f"<style>{STYLE}</style><h1>Figures of <i>Ribbed Support Vaults</i>, from our runs</h1><p>Tricard, Claux, Lefebvre, CGF 2019. Captions in our words; each figure with the command that "
+            "draws it. <code>scripts/paper-figures</code> makes all.</p><main>" + "\n".join(parts) + "</main></html>\n")
+    temporary = output / "index.html.part"
+    temporary.write_text(page)
+    temporary.rename(output / "index.html")
+
+
+def main():
+    chosen = arguments()
+    chosen.output.mkdir(parents=True, exist_ok=True)
+    inputs, entries = Inputs(chosen), []
+    for number in chosen.numbers or RECIPES:
+        start = time.monotonic()
+        try:
+            entries.append(make(number, inputs, chosen.output))
+            words = f"made in {time.monotonic() - start:.1f} s" if entries[-1]["made"] else "as it was"
+        except results.Unusable as error:
+            entries.append({"number": number, "missing": str(error)})
+            words = f"NOT MADE: {error}"
+        print(f"figure {number:2d}  {words}", flush=True)
+    if not chosen.numbers:
+        index(entries, chosen.output)
+        print(chosen.output / "index.html")
+    return 1 if any("missing" in e for e in entries) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,149 @@
+"""Result files of ribvault_steps: read, checked, made anew when something changed."""
+import hashlib
+import json
+import os
+import pathlib
+import subprocess
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent
+VERSION = 1
+MEMBERS = {"layers": ("layers",), "stages": ("layer", "slice_above", "cavity_above", "cavity", "above", "copied", "overhang", "unsupported", "growth", "grown"),
+           "tree": ("tree", "straightening", "chain", "paths", "gaps", "cavity")}
+
+
+class Unusable(Exception):
+    """A result file that cannot be drawn; the message names the file and what is wrong."""
+
+
+def program(name):
+    return pathlib.Path(os.environ.get("RIBVAULT_BIN", ROOT / "build/bin")) / name
+
+
+class Result(dict):
+    """A result file; lengths and coordinates in lattice units, `mm` converts."""
+
+    def mm(self, units):
+        return units / self["units_per_mm"]
+
+    def points(self, flat):
+        """[x0, y0, x1, y1, ...] as pairs in mm."""
+        return [(self.mm(x), self.mm(y)) for x, y in zip(flat[::2], flat[1::2])]
+
+    def region(self, contours):
+        return [self.points(c) for c in contours]
+
+    def forest(self, forest):
+        return Forest(self, forest)
+
+    def below_top(self, count):
+        """The layer that many layers below the highest one."""
+        if count >= len(self["layers"]):
+            raise Unusable(f"{self['model']} has {len(self['layers'])} layers; this figure draws the one {count} below the highest")
+        return self["layers"][-1 - count]
+
+    def setting(self, name):
+        return self.mm(self["settings"][name])
+
+
+class Forest:
+    """Vertices in mm with what they are, edges as pairs of numbers."""
+
+    def __init__(self, result, forest):
+        self.at = [(result.mm(x), result.mm(y)) for x, y, _ in forest["vertices"]]
+        self.root = [bool(r) for _, _, r in forest["vertices"]]
+        self.edges = [(a, b) for a, b, _ in forest["edges"]]
+        self.first = [bool(f) for _, _, f in forest["edges"]]
+        self.around = [[] for _ in self.at]
+        for a, b in self.edges:
+            self.around[a].append(b)
+            self.around[b].append(a)
+
+    def segments(self):
+        return [(self.at[a], self.at[b]) for a, b in self.edges]
+
+    def valence(self, v):
+        return len(self.around[v])
+
+    def sections(self):
+        """Chains between vertices that are no plain points of a wall."""
+        plain = [self.valence(v) == 2 and not self.root[v] for v in range(len(self.at))]
+        chains = []
+        for v in range(len(self.at)):
+            if plain[v]:
+                continue
+            for n in self.around[v]:
+                chain = [v, n]
+                while plain[chain[-1]]:
+                    chain.append(next(w for w in self.around[chain[-1]] if w != chain[-2]))
+                if chain[0] < chain[-1] or (chain[0] == chain[-1] and chain[1] <= chain[-2]):
+                    chains.append(chain)
+        return chains
+
+
+def read(path, kind):
+    """The result file, which must be of this kind ("layers", "stages", "tree")."""
+    path = pathlib.Path(path)
+    try:
+        data = json.loads(path.read_text())
+    except OSError as error:
+        raise Unusable(f"{path}: {error.strerror}") from None
+    except ValueError as error:
+        raise Unusable(f"{path}: no JSON ({error}); make it again with ribvault_steps {kind}") from None
+    wanted = f"ribvault-{kind}/{VERSION}"
+    found = data.get("schema") if isinstance(data, dict) else None
+    if found != wanted:
+        raise Unusable(f"{path}: its \"schema\" is {json.dumps(found)}, this figure draws \"{wanted}\"; make it again with ribvault_steps {kind}")
+    for name in ("units_per_mm", "settings", *MEMBERS[kind]):
+        if name not in data:
+            raise Unusable(f"{path}: the member \"{name}\" is missing; make it again with ribvault_steps {kind}")
+    return Result(data)
+
+
+def digest(*parts):
+    h = hashlib.sha256()
+    for part in parts:
+        h.update(part if isinstance(part, bytes) else str(part).encode())
+        h.update(b"\0")
+    return h.hexdigest()[:16]
+
+
+def made(kind, model, options, folder):
+    """The file of `ribvault_steps KIND MODEL OPTIONS`, run only when program, model or options changed."""
+    steps = program("ribvault_steps")
+    if not steps.exists():
+        raise Unusable(f"{steps} is not there; scripts/paper-figures builds it")
+    stamp = digest(steps.read_bytes(), pathlib.Path(model).read_bytes(), kind, *options)
+    path = folder / f"{kind}-{pathlib.Path(model).stem}-{stamp}.json"
+    if not path.exists():
+        folder.mkdir(parents=True, exist_ok=True)
+        done = subprocess.run([steps, kind, model, "-o", path, *options], capture_output=True, text=True)
+        if done.returncode != 0:
+            raise Unusable(done.stderr.strip() or f"ribvault_steps {kind}: exit code {done.returncode}")
+    return path
+
+
+def read_table(path, columns):
+    """Rows of a CSV table that experiments/run.py wrote; `columns` must be there."""
+    import csv
+    path = pathlib.Path(path)
+    try:
+        with open(path, newline="") as file:
+            rows = list(csv.DictReader(file))
+    except OSError as error:
+        raise Unusable(f"{path}: {error.strerror}; scripts/experiments {path.stem} makes it") from None
+    for name in columns:
+        if not rows or name not in rows[0]:
+            raise Unusable(f"{path}: the column \"{name}\" is missing; scripts/experiments {path.stem} makes the table again")
+    return rows
+
+
+def load(path, kind):
+    """A result file for a script: "layers", "stages", "tree", "picture" (a PNG), or "table:COLUMN,..."."""
+    if kind.startswith("table:"):
+        return read_table(path, kind.removeprefix("table:").split(","))
+    if kind == "picture":
+        if not pathlib.Path(path).exists():
+            raise Unusable(f"{path}: there is no such picture; scripts/paper-figures makes it with scripts/page-picture")
+        return pathlib.Path(path)
+    return read(path, kind)
