@@ -101,6 +101,12 @@ def far_tip(width=40.0, height=16.0, pit=10.0, tip=3.0):
     return triangles
 
 
+def hanging_tip(depth=4.0):
+    """Figure 25, right, outside: an arm on a post with a tip that hangs far from the post and near the bed; nothing else overhangs."""
+    outline = [(0.0, 0.0), (4.0, 0.0), (4.0, 8.0), (24.0, 30.0), (24.0, 6.0), (26.0, 3.0), (28.0, 6.0), (28.0, 36.0), (0.0, 36.0)]
+    return prism((outline, [(0, 1, 2), (0, 2, 8), (2, 3, 8), (3, 7, 8), (3, 6, 7), (3, 4, 6), (4, 5, 6)]), depth)
+
+
 def slope45(outer=20, wide=15, narrow=5, height=10):
     """A block with a square hole whose sides lean in by exactly 45 degrees, turned by the angle of the 3-4-5 triangle: all along the hole
     every layer reaches exactly the layer height, which is exactly rho, over the one below. All coordinates are integers."""
@@ -194,7 +200,7 @@ def main():
     shutil.copyfile(HERE / "models/cube20.stl", folder / "cube20.stl")
     cone = lathe([(3.0, 0.0), (12.0, 20.0)])
     for name, triangles in {"sphere": sphere(), "arch": arch(), "cone": cone, "low_roof": low_roof(), "far_tip": far_tip(), "slope45": slope45(),
-                            "gyroid": gyroid(), "blobs": blobs(), "bridge_solid": bridge(), "nail_solid": nail()}.items():
+                            "gyroid": gyroid(), "blobs": blobs(), "bridge_solid": bridge(), "nail_solid": nail(), "hanging_tip": hanging_tip()}.items():
         write_stl(folder / f"{name}.stl", triangles)
 
 

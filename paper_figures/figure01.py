@@ -9,10 +9,7 @@ INPUTS = {"whole": "picture", "cut": "picture"}
 
 
 def draw(whole, cut):
-    figure, axes = look.panels(2, width=look.PAGE)
-    for axis, picture in zip(axes, (whole, cut,)):
-        axis.imshow(look.cropped(picture), interpolation="antialiased")
-    return figure
+    return look.photographs([(whole, cut)], ("whole", "half of the shell away"))
 
 
 if __name__ == "__main__":

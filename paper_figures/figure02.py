@@ -9,12 +9,11 @@ import script
 INPUTS = {"layers": "layers"}
 
 
-# Seen from the front, a little from above.
-TILT = 0.35
+TILT = 0.35  # seen a little from above
 
 
 def seen(points, z):
-    return [(x, z + TILT * y) for x, y in points]
+    return [(y, z - TILT * x) for x, y in points]
 
 
 def distance(p, contours):
@@ -36,27 +35,24 @@ def is_minimum(contour, cavity, rho):
 
 def draw(layers):
     figure, (whole, hangs) = look.panels(2, ratio=1.05)
-    rho, drawn = layers.setting("support_radius"), []
+    rho, minima = layers.setting("support_radius"), 0
     for axis in (whole, hangs):
-        points = [p for l in layers["layers"] for c in layers.region(l["slice"]) for p in seen(c, l["z_mm"])]
-        look.frame(axis, look.box_of(points), 0.5)
-    minima = 0
-    for k, layer in enumerate(layers["layers"]):
-        slice_, cavity = layers.region(layer["slice"]), layers.region(layer["cavity"])
-        outlines = [seen(c + c[:1], layer["z_mm"]) for c in slice_]
-        if k % 6 == 0:
-            look.lines(whole, outlines, look.EDGE, points=0.25, alpha=0.5)
-            look.lines(whole, [seen(c + c[:1], layer["z_mm"]) for c in cavity], look.WALL, points=0.35, alpha=0.7)
-        if k % 12 == 0:
-            look.lines(hangs, outlines, look.EDGE, points=0.2, alpha=0.35)
-        for contour in layers.region(layer["overhang"]):
-            minimum = is_minimum(contour, cavity, rho)
+        look.frame(axis, look.box_of([p for l in layers["layers"] for c in layers.region(l["slice"]) for p in seen(c, l["z_mm"])]), 0.5)
+    for k, layer in enumerate(layers["layers"]):  # from the bed up: what is drawn later stands before what is below it
+        slice_, cavity = ([seen(c, layer["z_mm"]) for c in layers.region(layer[name])] for name in ("slice", "cavity"))
+        if k % 2 == 0:
+            look.area(whole, slice_, look.SHELL, edge="#8c8c8c", width=0.25, order=2 + k / 1000)
+            look.area(hangs, cavity, "#eef3f7", edge="#c3ccd4", width=0.2, order=2 + k / 1000)
+        parts = look.parts(layers.region(layer["overhang"]))
+        for part in parts:
+            minimum = is_minimum(part[0], layers.region(layer["cavity"]), rho)
             minima += minimum
-            drawn.append((minimum, seen(contour, layer["z_mm"])))
-    for minimum, contour in sorted(drawn, key=lambda d: d[0]):
-        look.area(hangs, [contour], "#c1121f" if minimum else "#f4a259", alpha=1 if minimum else 0.6, edge="#c1121f" if minimum else "none", width=0.8, order=4 + minimum)
-    look.title(whole, "shell (grey) and cavity (blue)")
-    look.title(hangs, f"overhangs in the cavity, {minima} local minima")
+            look.area(hangs, [seen(c, layer["z_mm"]) for c in part], look.RED if minimum else look.ORANGE, edge=look.RED if minimum else look.ORANGE,
+                      width=1.0 if minimum else 0.15, order=3 + minimum + k / 1000)
+    look.title(whole, "the model")
+    look.title(hangs, "its cavity, and what hangs in it")
+    handles = [look.pyplot.Rectangle((0, 0), 1, 1, color=c, label=t) for c, t in ((look.ORANGE, "overhang"), (look.RED, f"local minimum ({minima})"))]
+    hangs.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=2, frameon=False, handlelength=1.2)
     look.scale_bar(whole)
     return figure
 

@@ -9,10 +9,7 @@ INPUTS = {"cut": "picture"}
 
 
 def draw(cut):
-    figure, axes = look.panels(1, width=look.COLUMN)
-    for axis, picture in zip(axes, (cut,)):
-        axis.imshow(look.cropped(picture), interpolation="antialiased")
-    return figure
+    return look.photographs([(cut,)], width=look.COLUMN)
 
 
 if __name__ == "__main__":

@@ -9,10 +9,7 @@ INPUTS = {"left": "picture", "right": "picture"}
 
 
 def draw(left, right):
-    figure, axes = look.panels(2, width=look.PAGE)
-    for axis, picture in zip(axes, (left, right,)):
-        axis.imshow(look.cropped(picture), interpolation="antialiased")
-    return figure
+    return look.photographs([(left, right)], ("left half away", "right half away"))
 
 
 if __name__ == "__main__":

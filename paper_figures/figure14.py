@@ -9,9 +9,9 @@ INPUTS = {"tree": "tree"}
 
 
 def draw(tree):
-    figure, axes = look.panels(3, ratio=0.75)
+    figure, axes = look.panels(3, ratio=0.6)
     first, last = tree.forest(tree["straightening"][0]), tree.forest(tree["straightening"][-1])
-    box = look.fitted(first.at, 0.75, 0.4)
+    box = look.fitted(first.at, 0.6, 0.3)
     for axis, name in zip(axes, ("(a) tree", "(b) its sections", f"(c) after {len(tree['straightening']) - 1} layers")):
         look.frame(axis, box)
         look.area(axis, [c[::-1] for c in tree.region(tree["cavity"])], "none", edge=look.EDGE, width=0.8)

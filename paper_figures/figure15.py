@@ -33,22 +33,20 @@ def draw(stages):
     look.shell(axis, stages.region(stages["slice"]), stages.region(stages["cavity"]))
     old = stages.forest(stages["straightened"]).segments() + [(mm(w["point"]), mm(w["joint"])) for w in walls[:k]]
     look.lines(axis, old, look.HANG, points=2.0)
-    def say(text, at):
-        """Beside a point, on the side that looks away from p."""
-        dx, dy = at[0] - p[0], at[1] - p[1]
-        n = math.hypot(dx, dy) or 1
-        axis.annotate(text, at, xytext=(10 * dx / n, 10 * dy / n), textcoords="offset points", fontsize=6.5, zorder=9,
-                      ha="left" if dx > 0.3 * n else "right" if dx < -0.3 * n else "center", va="bottom" if dy > 0 else "top",
+    away = -1 if joint[0] >= p[0] else 1  # the labels of what was not taken stand on the other side of p
+
+    def say(text, at, side, up):
+        axis.annotate(text, at, xytext=(5 * side, up), textcoords="offset points", fontsize=6.5, zorder=9, va="center", ha="left" if side > 0 else "right",
                       bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.85})
 
     for end, text, value in ((shell, "$p_b$", wall["shell_distance"]), (near, "$p[2]$", wall["wall_distance"])):
         look.lines(axis, [[p, end]], "#666666", points=0.9, style="dotted", order=4)
         look.dots(axis, [end], "black", 3.2)
-        say(f"{text}: {stages.mm(value):.2f} mm", end)
+        say(f"{text}: {stages.mm(value):.2f} mm", end, away, 7 if end is near else -7)
     look.lines(axis, [[p, joint]], look.WALL, points=2.2, order=5)
     bonus, far = stages.setting("branch_bonus"), stages.mm(wall["joint_distance"])
     look.dots(axis, [joint], look.WALL, 4)
-    say(f"$p[1]$, valence {wall['valence']}:\n{far:.2f} - {bonus:.2g} = {far - bonus:.2f} mm", joint)
+    say(f"$p[1]$, valence {wall['valence']}:\n{far:.2f} - {bonus:.2g} = {far - bonus:.2f} mm", joint, -away, 11)
     look.dots(axis, [p], look.GREEN, 5)
     axis.annotate("$p$", p, xytext=(5, 5), textcoords="offset points", fontsize=8, zorder=9)
     look.scale_bar(axis)

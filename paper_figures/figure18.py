@@ -29,7 +29,7 @@ def draw(stages):
             look.dots(axis, [grown[-1][0]], "black", 3)
         look.shell(axis, slice_, cavity, order=4)
         look.title(axis, f"({'abcdefghijkl'[k]}) {count if k else 'no'} wall{'' if count == 1 else 's'}")
-    look.scale_bar(axes[0])
+    look.scale_bar(axes[6])
     return figure
 
 

@@ -4,6 +4,7 @@ import sys
 import math
 
 import look
+import results
 import script
 
 INPUTS = {"layers": "layers"}
@@ -71,7 +72,11 @@ def follow(layers, top, tip):
         length = sum(dist(a, b) for a, b in zip(points, points[1:]))
         if rows and length > rows[-1][1] + rho:
             break  # the junction is another one: the branch it shared a trunk with is gone
-        rows.append((layer["z_mm"], length, printed_from(points, paths)))
+        begins = printed_from(points, paths)
+        apart = layers.setting("nozzle") / 2
+        if begins is not None and begins < apart and any(r[2] is not None and r[2] > apart for r in rows):
+            break  # shorter than the gap, it is printed as the trunk's end from here on
+        rows.append((layer["z_mm"], length, begins))
     return rows
 
 
@@ -88,13 +93,16 @@ def longest_lived(layers):
             if chain is None:
                 continue
             rows = follow(layers, top, tip)
-            if all(r[2] is not None for r in rows) and apart(rows) > apart(best):
+            reaches = rows and rows[0][2] is not None and rows[0][2] < layers.setting("nozzle") / 2
+            if reaches and all(r[2] is not None for r in rows) and apart(rows) > apart(best):
                 best = rows
     return best
 
 
 def draw(layers):
     rows = longest_lived(layers)
+    if not rows:
+        raise results.Unusable(f"{layers.file}: no branch in it is printed apart from its trunk; ribvault_steps layers --gaps paper makes such files")
     h, d = layers.mm(layers["settings"]["layer_height"]), layers.setting("nozzle")
     figure, axis = look.pyplot.subplots(figsize=(look.COLUMN, look.COLUMN * 0.8))
     top = rows[0][0]
@@ -113,7 +121,7 @@ def draw(layers):
     for side in ("top", "right"):
         axis.spines[side].set_visible(False)
     handles = [look.pyplot.Rectangle((0, 0), 1, 1, color=c, label=t) for c, t in (("#bbbbbb", "trunk"), (look.HANG, "reaches the junction"), (look.WALL, "one width away"))]
-    axis.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.3), ncol=3, frameon=False, handlelength=1.2, columnspacing=1.0)
+    axis.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.42, -0.2), ncol=3, frameon=False, handlelength=1.2, columnspacing=1.0)
     return figure
 
 

@@ -10,6 +10,7 @@ from matplotlib.path import Path  # noqa: E402
 
 COLUMN, PAGE = 3.35, 6.9  # inches: one column, both
 SHELL, EDGE, WALL, HANG, FILL = "#d9d9d9", "#333333", "#0072b2", "#d55e00", "#f7c9a8"
+RED, ORANGE = "#9b0000", "#f4a259"
 GREEN, SKY, YELLOW, PURPLE = "#009e73", "#56b4e9", "#f0e442", "#cc79a7"
 CYCLE = [WALL, HANG, GREEN, PURPLE, "#e69f00", SKY, "#000000"]
 
@@ -67,6 +68,19 @@ def path_of(region):
     return Path(points, codes) if points else None
 
 
+def parts(region):
+    """The region's connected parts, each its outer contour with its holes."""
+    def doubled_area(c):
+        return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(c, c[1:] + c[:1]))
+    outer = sorted((c for c in region if doubled_area(c) > 0), key=doubled_area)
+    found = [[c] for c in outer]
+    for hole in (c for c in region if doubled_area(c) < 0):
+        around = next((part for part in found if path_of(part[:1]).contains_point(hole[0])), None)
+        if around:
+            around.append(hole)
+    return found
+
+
 def area(axis, region, colour, alpha=1.0, edge="none", width=0.5, order=1):
     """A region; holes run against their outer contour. `region` may be several put together, as slice and cavity: what lies between."""
     path = path_of(region)
@@ -122,11 +136,26 @@ def save(figure, stem):
     pyplot.close(figure)
 
 
-def cropped(picture):
-    """A picture without its even border."""
-    pixels = pyplot.imread(picture)[:, :, :3]
-    same = abs(pixels - pixels[0, 0]).sum(axis=2) < 0.02
-    rows, columns = (~same).any(axis=1).nonzero()[0], (~same).any(axis=0).nonzero()[0]
+def cropped(pictures, margin=8):
+    """Pictures without their even border, all cut alike, so that they keep one scale. They must be of one size."""
+    pixels = [pyplot.imread(p)[:, :, :3] for p in pictures]
+    drawn = sum(abs(p - p[0, 0]).sum(axis=2) >= 0.02 for p in pixels) > 0
+    rows, columns = drawn.any(axis=1).nonzero()[0], drawn.any(axis=0).nonzero()[0]
     if rows.size == 0:
         return pixels
-    return pixels[max(rows[0] - 8, 0):rows[-1] + 9, max(columns[0] - 8, 0):columns[-1] + 9]
+    return [p[max(rows[0] - margin, 0):rows[-1] + margin + 1, max(columns[0] - margin, 0):columns[-1] + margin + 1] for p in pixels]
+
+
+def photographs(groups, names=(), width=PAGE):
+    """Panels of pictures in a row, all of one height, named. Pictures of one group are cut alike, so they keep one scale."""
+    pixels = [p for group in groups for p in cropped(group)]
+    shapes = [p.shape[1] / p.shape[0] for p in pixels]
+    height = width / (sum(shapes) * (1 + 0.04 * (len(shapes) - 1)))
+    figure, axes = pyplot.subplots(1, len(pixels), figsize=(width, height + 0.22), width_ratios=shapes, squeeze=False)
+    figure.subplots_adjust(0, 0, 1, height / (height + 0.22), 0.04 * len(shapes))
+    for k, (axis, picture) in enumerate(zip(axes[0], pixels)):
+        axis.set_axis_off()
+        axis.imshow(picture, interpolation="antialiased")
+        if names:
+            title(axis, names[k])
+    return figure

@@ -1,5 +1,7 @@
 """Result files of ribvault_steps: read, checked, made anew when something changed."""
+import csv
 import hashlib
+import io
 import json
 import os
 import pathlib
@@ -8,8 +10,10 @@ import subprocess
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
 VERSION = 1
-MEMBERS = {"layers": ("layers",), "stages": ("layer", "slice_above", "cavity_above", "cavity", "above", "copied", "overhang", "unsupported", "growth", "grown"),
-           "tree": ("tree", "straightening", "chain", "paths", "gaps", "cavity")}
+DRAWN = ("units_per_mm", "settings")
+MEMBERS = {"layers": (*DRAWN, "layers"), "tree": (*DRAWN, "tree", "straightening", "chain", "paths", "gaps", "cavity"), "run": ("totals",),
+           "stages": (*DRAWN, "layer", "slice_above", "cavity_above", "cavity", "above", "copied", "overhang", "unsupported", "growth", "grown")}
+MAKERS = {kind: f"ribvault_steps {kind}" for kind in ("layers", "stages", "tree")} | {"run": "ribvault generate --report"}
 
 
 class Unusable(Exception):
@@ -20,7 +24,18 @@ def program(name):
     return pathlib.Path(os.environ.get("RIBVAULT_BIN", ROOT / "build/bin")) / name
 
 
-class Result(dict):
+class Part(dict):
+    """An object of a result file, which says what it lacks."""
+
+    def __init__(self, members, file, kind):
+        super().__init__(members)
+        self.file, self.kind = file, kind
+
+    def __missing__(self, name):
+        raise Unusable(f"{self.file}: the member \"{name}\" is missing; make it again with {MAKERS[self.kind]}")
+
+
+class Result(Part):
     """A result file; lengths and coordinates in lattice units, `mm` converts."""
 
     def mm(self, units):
@@ -82,22 +97,21 @@ class Forest:
 
 
 def read(path, kind):
-    """The result file, which must be of this kind ("layers", "stages", "tree")."""
+    """The result file, which must be of this kind (a key of MEMBERS)."""
     path = pathlib.Path(path)
     try:
-        data = json.loads(path.read_text())
+        data = json.loads(path.read_text(), object_hook=lambda members: Part(members, path, kind))
     except OSError as error:
         raise Unusable(f"{path}: {error.strerror}") from None
     except ValueError as error:
-        raise Unusable(f"{path}: no JSON ({error}); make it again with ribvault_steps {kind}") from None
+        raise Unusable(f"{path}: no JSON ({error}); make it again with {MAKERS[kind]}") from None
     wanted = f"ribvault-{kind}/{VERSION}"
     found = data.get("schema") if isinstance(data, dict) else None
     if found != wanted:
-        raise Unusable(f"{path}: its \"schema\" is {json.dumps(found)}, this figure draws \"{wanted}\"; make it again with ribvault_steps {kind}")
-    for name in ("units_per_mm", "settings", *MEMBERS[kind]):
-        if name not in data:
-            raise Unusable(f"{path}: the member \"{name}\" is missing; make it again with ribvault_steps {kind}")
-    return Result(data)
+        raise Unusable(f"{path}: its \"schema\" is {json.dumps(found)}, this figure draws \"{wanted}\"; make it again with {MAKERS[kind]}")
+    for name in MEMBERS[kind]:
+        data[name]
+    return Result(data, path, kind)
 
 
 def digest(*parts):
@@ -123,27 +137,38 @@ def made(kind, model, options, folder):
     return path
 
 
+def markdown_rows(text, columns):
+    """The rows, heading first, of the table in a Markdown page whose heading has these columns."""
+    chosen, rows = False, []
+    for line in text.splitlines():
+        cells = [c.strip() for c in line.strip().strip("|").split("|")] if line.startswith("|") else []
+        chosen = bool(cells) and (chosen or set(columns) <= set(cells))
+        if chosen and not set(cells[0]) <= set("-: "):
+            rows.append(cells)
+    return rows or [[]]
+
+
 def read_table(path, columns):
-    """Rows of a CSV table that experiments/run.py wrote; `columns` must be there."""
-    import csv
+    """Rows of a table that experiments/run.py wrote, as CSV or into a Markdown page; `columns` must be there."""
     path = pathlib.Path(path)
     try:
-        with open(path, newline="") as file:
-            rows = list(csv.DictReader(file))
+        text = path.read_text()
     except OSError as error:
-        raise Unusable(f"{path}: {error.strerror}; scripts/experiments {path.stem} makes it") from None
+        raise Unusable(f"{path}: {error.strerror}; scripts/experiments makes it") from None
+    heading, *rows = csv.reader(io.StringIO(text)) if path.suffix == ".csv" else markdown_rows(text, columns)
+    rows = [dict(zip(heading, row)) for row in rows]
     for name in columns:
         if not rows or name not in rows[0]:
-            raise Unusable(f"{path}: the column \"{name}\" is missing; scripts/experiments {path.stem} makes the table again")
+            raise Unusable(f"{path}: the column \"{name}\" is missing; scripts/experiments makes the table again")
     return rows
 
 
 def load(path, kind):
-    """A result file for a script: "layers", "stages", "tree", "picture" (a PNG), or "table:COLUMN,..."."""
+    """A result file for a script: a key of MEMBERS ("run" is a report), "picture" (a PNG), or "table:COLUMN,..."."""
     if kind.startswith("table:"):
         return read_table(path, kind.removeprefix("table:").split(","))
     if kind == "picture":
         if not pathlib.Path(path).exists():
-            raise Unusable(f"{path}: there is no such picture; scripts/paper-figures makes it with scripts/page-picture")
+            raise Unusable(f"{path}: there is no such picture; scripts/paper-figures makes it")
         return pathlib.Path(path)
     return read(path, kind)

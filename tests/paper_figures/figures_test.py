@@ -1,0 +1,118 @@
+#!/usr/bin/python3
+"""The figures' scripts: what they draw from real result files, and what they say of files that they cannot draw."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+FIGURES, CUBE = ROOT / "paper_figures", ROOT / "experiments/models/cube20.stl"
+STEPS = pathlib.Path(os.environ["RIBVAULT_BIN"]) / "ribvault_steps"
+
+try:
+    import matplotlib  # noqa: F401
+except ModuleNotFoundError:
+    print("skipped: python3-matplotlib is not installed")
+    sys.exit(77)
+sys.path.insert(0, str(FIGURES))
+import results  # noqa: E402
+
+
+def steps(kind, output, *options):
+    return subprocess.run([STEPS, kind, CUBE, "--scale", "0.4", "-o", output, *options], capture_output=True, text=True)
+
+
+class Figures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.scratch.cleanup)
+        cls.folder = pathlib.Path(cls.scratch.name)
+        for kind, options in (("layers", ()), ("stages", ("--layer", "38")), ("tree", ("--layer", "36"))):
+            done = steps(kind, cls.folder / f"{kind}.json", *options)
+            if done.returncode:
+                raise RuntimeError(done.stderr)
+
+    def draw(self, number, *inputs):
+        return subprocess.run([FIGURES / f"figure{number:02d}.py", *inputs, "-o", self.folder / f"figure{number}"], capture_output=True, text=True)
+
+    def assert_refused(self, done, *words):
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        for word in words:
+            self.assertIn(word, done.stderr)
+
+    def changed(self, kind, change):
+        data = json.loads((self.folder / f"{kind}.json").read_text())
+        change(data)
+        path = self.folder / f"changed-{kind}.json"
+        path.write_text(json.dumps(data))
+        return path
+
+    def test_three_formats_of_each_kind_of_file(self):
+        for number, kind in ((9, "layers"), (18, "stages"), (16, "stages"), (14, "tree"), (19, "tree")):
+            done = self.draw(number, self.folder / f"{kind}.json")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue((self.folder / f"figure{number}.pdf").read_bytes().startswith(b"%PDF"))
+            self.assertIn("<svg", (self.folder / f"figure{number}.svg").read_text())
+            self.assertTrue((self.folder / f"figure{number}.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_the_same_file_gives_the_same_drawing(self):
+        first = self.draw(9, self.folder / "layers.json") and (self.folder / "figure9.svg").read_bytes()
+        second = self.draw(9, self.folder / "layers.json") and (self.folder / "figure9.svg").read_bytes()
+        self.assertEqual(first, second)
+
+    def test_another_version_is_named(self):
+        def older(data):
+            data["schema"] = "ribvault-layers/0"
+        path = self.changed("layers", older)
+        self.assert_refused(self.draw(9, path), str(path), "ribvault-layers/0", "ribvault-layers/1")
+
+    def test_a_missing_member_is_named(self):
+        path = self.changed("stages", lambda data: data.pop("growth"))
+        self.assert_refused(self.draw(18, path), str(path), '"growth"')
+
+    def test_another_kind_of_file_is_refused(self):
+        self.assert_refused(self.draw(9, self.folder / "tree.json"), "ribvault-tree/1", "ribvault-layers/1")
+
+    def test_files_that_are_not_there_or_no_json(self):
+        self.assert_refused(self.draw(9, self.folder / "none.json"), "none.json")
+        (self.folder / "torn.json").write_text('{"schema": "ribvault-lay')
+        self.assert_refused(self.draw(9, self.folder / "torn.json"), "torn.json", "no JSON")
+
+    def test_a_table_without_the_column(self):
+        (self.folder / "figure24.csv").write_text("model,height mm\nowl,10\n")
+        self.assert_refused(self.draw(24, self.folder / "figure24.csv"), '"reduction %"')
+
+    def test_the_steps_are_the_runs(self):
+        # The stages called one by one end where the run did (ribvault_steps checks it), so the last wall is drawn from the run itself.
+        stages = results.read(self.folder / "stages.json", "stages")
+        walls, forest = stages["growth"]["walls"], stages.forest(stages["grown"])
+        self.assertGreater(len(walls), 20)
+        tips = {p for v, p in enumerate(forest.at) if not forest.root[v]}
+        for wall in walls:
+            self.assertIn((stages.mm(wall["point"][0]), stages.mm(wall["point"][1])), tips)
+
+    def test_sections_of_a_tree_are_all_its_edges(self):
+        tree = results.read(self.folder / "tree.json", "tree")
+        forest = tree.forest(tree["tree"])
+        drawn = sorted(tuple(sorted(pair)) for s in forest.sections() for pair in zip(s, s[1:]))
+        self.assertEqual(drawn, sorted(tuple(sorted(e)) for e in forest.edges))
+
+    def test_steps_refuse_what_is_not_there(self):
+        done = steps("stages", self.folder / "x.json", "--layer", "1000")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--layer 1000", done.stderr)
+        self.assertFalse((self.folder / "x.json").exists())
+
+    def test_unknown_figures(self):
+        done = subprocess.run([FIGURES / "make.py", "3", "--output", self.folder / "all"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("figure 3", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
