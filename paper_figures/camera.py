@@ -1,4 +1,5 @@
-"""The 3D model of a run page, photographed by headless Chromium."""
+#!/usr/bin/python3
+"""The 3D model of a run page, photographed by headless Chromium. Usage: camera.py PAGE front|left|back|right|whole|hidden PICTURE"""
 import base64
 import pathlib
 import subprocess

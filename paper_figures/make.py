@@ -57,15 +57,23 @@ def arguments():
     for number in chosen.numbers:
         if number not in RECIPES:
             parser.error(f"figure {number}: there is no script for it; there are {', '.join(map(str, RECIPES))}")
-    chosen.output = chosen.output or chosen.results / "paper_figures"
+    chosen.results = chosen.results.resolve()
+    chosen.output = (chosen.output or chosen.results / "paper_figures").resolve()
     return chosen
 
 
+def as_typed(*words):
+    """The words as one would type them in the repository."""
+    return shlex.join(str(w.relative_to(results.ROOT)) if isinstance(w, pathlib.Path) and w.is_relative_to(results.ROOT) else str(w) for w in words)
+
+
 class Inputs:
+    """The figures' input files, made when they are asked for; `notes` and `commands` say of what and how."""
+
     def __init__(self, chosen):
         self.tables, self.folder = chosen.results / "tables", chosen.output / "inputs"
         self.registry = Registry(chosen.results / "models", chosen.models, results.program("ribvault_baselines"))
-        self.notes = []
+        self.notes, self.commands = [], []
 
     def model(self, name, options):
         model = self.registry.or_stand_in(self.registry[name])
@@ -83,11 +91,18 @@ class Inputs:
             return table if table.exists() else results.ROOT / "experiments/README.md"  # as it was measured last
         kind, name, options = recipe[:3]
         model, placed = self.model(name, options)
-        if kind == "picture":
-            return camera.photographed(camera.page_of(model, placed, self.folder), recipe[3], self.folder)
+        if kind not in ("picture", "run"):
+            made = results.made(kind, model, placed, self.folder)
+            self.commands.append(as_typed("build/bin/ribvault_steps", kind, model, *placed, "-o", made))
+            return made
+        page = camera.page_of(model, placed, self.folder)
+        report = page.with_suffix(".json")
+        self.commands.append(as_typed("build/bin/ribvault", "generate", model, *placed, "--html", page, "--report", report))
         if kind == "run":
-            return camera.page_of(model, placed, self.folder).with_suffix(".json")
-        return results.made(kind, model, placed, self.folder)
+            return report
+        photograph = camera.photographed(page, recipe[3], self.folder)
+        self.commands.append(as_typed("paper_figures/camera.py", page, recipe[3], photograph))
+        return photograph
 
 
 def make(number, inputs, output):
@@ -95,7 +110,7 @@ def make(number, inputs, output):
     script = HERE / f"figure{number:02d}.py"
     module = importlib.import_module(script.stem)
     stem = output / script.stem
-    inputs.notes = []
+    inputs.notes, inputs.commands = [], []
     files = [inputs.file(recipe) for recipe in RECIPES[number]]
     given = {name: results.load(file, kind) for (name, kind), file in zip(module.INPUTS.items(), files)}
     stamp = results.digest(script.read_bytes(), (HERE / "look.py").read_bytes(), *(f.read_bytes() for f in files))
@@ -104,15 +119,15 @@ def make(number, inputs, output):
     if not fresh:
         look.save(module.draw(**given), stem)
         kept.write_text(stamp)
-    command = shlex.join(["paper_figures/" + script.name, *(str(f) for f in files), "-o", str(stem)])
-    return {"number": number, "caption": " ".join(module.__doc__.split()), "command": command, "notes": list(inputs.notes), "made": not fresh}
+    commands = dict.fromkeys([*inputs.commands, as_typed(script, *files, "-o", stem)])
+    return {"number": number, "caption": " ".join(module.__doc__.split()), "commands": list(commands), "notes": list(inputs.notes), "made": not fresh}
 
 
 STYLE = """body { font: 16px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; color: #222; background: #fff }
 main { display: grid; grid-template-columns: repeat(auto-fill, minmax(20rem, 1fr)); gap: 1.5rem } figure { margin: 0; border: 1px solid #ddd; border-radius: 6px; padding: 1rem }
-img { width: 100%; height: 15rem; object-fit: contain; background: #fff } code { font-size: .72rem; overflow-wrap: anywhere; color: #444 } .missing { color: #a33 }
+img { width: 100%; height: 15rem; object-fit: contain; background: #fff } pre { font-size: .72rem; white-space: pre-wrap; overflow-wrap: anywhere; color: #444 } .missing { color: #a33 }
 a { color: #005a9c }
-@media (prefers-color-scheme: dark) { body { background: #16181c; color: #e6e6e6 } figure { border-color: #3a3d44 } code { color: #b8bcc4 } a { color: #7cc4ff } .missing { color: #ff9c8a } }"""
+@media (prefers-color-scheme: dark) { body { background: #16181c; color: #e6e6e6 } figure { border-color: #3a3d44 } pre { color: #b8bcc4 } a { color: #7cc4ff } .missing { color: #ff9c8a } }"""
 
 
 def index(entries, output):
@@ -125,7 +140,7 @@ def index(entries, output):
         caption = html.escape(e["caption"])
         notes = f" <i>Drawn on {html.escape(', '.join(sorted(set(e['notes']))))}.</i>" if e["notes"] else ""
         parts.append(f"<figure id=\"{name}\"><a href=\"{name}.svg\"><img src=\"{name}.png\" alt=\"{caption}\" loading=\"lazy\"></a><figcaption>{caption}{notes} "
-                     f"<a href=\"{name}.pdf\">PDF</a> <a href=\"{name}.svg\">SVG</a><br><code>{html.escape(e['command'])}</code></figcaption></figure>")
+                     f"<a href=\"{name}.pdf\">PDF</a> <a href=\"{name}.svg\">SVG</a><details><summary>commands</summary><pre>{html.escape(chr(10).join(e['commands']))}</pre></details></figcaption></figure>")
     page = ("<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>Figures of Ribbed Support Vaults, from our runs</title>"
             f"<style>{STYLE}</style><h1>Figures of <i>Ribbed Support Vaults</i>, from our runs</h1><p>Tricard, Claux, Lefebvre, CGF 2019. Captions in our words; each figure with the command that "
             "draws it. <code>scripts/paper-figures</code> makes all.</p><main>" + "\n".join(parts) + "</main></html>\n")
