@@ -19,6 +19,7 @@ try:
 except ModuleNotFoundError as missing:
     sys.exit(f"make.py: {missing}; install Debian's python3-matplotlib (scripts/paper-figures does)")
 import camera  # noqa: E402
+import docs_pictures  # noqa: E402
 import results  # noqa: E402
 from lab.registry import Registry  # noqa: E402
 
@@ -53,6 +54,7 @@ def arguments():
     parser.add_argument("--models", type=pathlib.Path, help="folder with the paper's models; without, others stand in")
     parser.add_argument("--results", type=pathlib.Path, default=results.ROOT / "results", help="where experiments/run.py put its tables")
     parser.add_argument("--output", type=pathlib.Path, help="default: RESULTS/paper_figures")
+    parser.add_argument("--write-docs", action="store_true", help="put the pictures into docs/pictures/figures")
     chosen = parser.parse_args()
     for number in chosen.numbers:
         if number not in RECIPES:
@@ -165,6 +167,9 @@ def main():
     if not chosen.numbers:
         index(entries, chosen.output)
         print(chosen.output / "index.html")
+    if chosen.write_docs:
+        total = docs_pictures.write([chosen.output / f"figure{e['number']:02d}.png" for e in entries if "missing" not in e])
+        print(f"{docs_pictures.FOLDER}: {total / 1e6:.2f} MB")
     return 1 if any("missing" in e for e in entries) else 0
 
 

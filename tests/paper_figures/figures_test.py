@@ -75,6 +75,10 @@ class Figures(unittest.TestCase):
         path = self.changed("stages", lambda data: data.pop("growth"))
         self.assert_refused(self.draw(18, path), str(path), '"growth"')
 
+    def test_a_missing_member_deep_inside_is_named(self):
+        path = self.changed("stages", lambda data: data["growth"]["walls"][3].pop("joint"))
+        self.assert_refused(self.draw(18, path), str(path), '"joint"')
+
     def test_another_kind_of_file_is_refused(self):
         self.assert_refused(self.draw(9, self.folder / "tree.json"), "ribvault-tree/1", "ribvault-layers/1")
 
@@ -86,6 +90,13 @@ class Figures(unittest.TestCase):
     def test_a_table_without_the_column(self):
         (self.folder / "figure24.csv").write_text("model,height mm\nowl,10\n")
         self.assert_refused(self.draw(24, self.folder / "figure24.csv"), '"reduction %"')
+
+    def test_a_table_in_a_page(self):
+        (self.folder / "page.md").write_text("Text.\n\n| a | b |\n| --- | --- |\n| 1 | 2 |\n\n| model | height mm | reduction % |\n| --- | --- | --- |\n| owl | 10 | 60.5 |\n| owl | 20 | 70 |\n")
+        rows = results.read_table(self.folder / "page.md", ["model", "height mm", "reduction %"])
+        self.assertEqual(rows, [{"model": "owl", "height mm": "10", "reduction %": "60.5"}, {"model": "owl", "height mm": "20", "reduction %": "70"}])
+        self.assertEqual(self.draw(24, self.folder / "page.md").returncode, 0)
+        self.assert_refused(self.draw(24, ROOT / "README.md"), "README.md", '"model"')
 
     def test_the_steps_are_the_runs(self):
         # The stages called one by one end where the run did (ribvault_steps checks it), so the last wall is drawn from the run itself.
