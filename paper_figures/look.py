@@ -1,7 +1,11 @@
 """One look for all figures: sizes, colours (Okabe and Ito, told apart without red and green), and how layers are drawn."""
 import math
+import sys
 
-import matplotlib
+try:
+    import matplotlib
+except ModuleNotFoundError as missing:
+    sys.exit(f"{sys.argv[0]}: {missing}; install Debian's python3-matplotlib (scripts/setup does)")
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 from matplotlib.collections import LineCollection  # noqa: E402
@@ -130,9 +134,10 @@ def scale_bar(axis, mm=None):
 def save(figure, stem):
     """stem.pdf, stem.svg and, for looking at, stem.png."""
     stem.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(stem.with_suffix(".pdf"), metadata={"CreationDate": None})
-    figure.savefig(stem.with_suffix(".svg"), metadata={"Date": None})
-    figure.savefig(stem.with_suffix(".png"), dpi=150)
+    for ending, more in (("pdf", {"metadata": {"CreationDate": None}}), ("svg", {"metadata": {"Date": None}}), ("png", {"dpi": 150})):
+        written = stem.with_suffix(f".{ending}.part")
+        figure.savefig(written, format=ending, **more)
+        written.rename(stem.with_suffix("." + ending))
     pyplot.close(figure)
 
 

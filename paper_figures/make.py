@@ -14,10 +14,7 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "experiments")]
-try:
-    import look
-except ModuleNotFoundError as missing:
-    sys.exit(f"make.py: {missing}; install Debian's python3-matplotlib (scripts/paper-figures does)")
+import look  # noqa: E402
 import camera  # noqa: E402
 import docs_pictures  # noqa: E402
 import results  # noqa: E402
@@ -29,7 +26,7 @@ RECIPES = {
     1: [("picture", "bunny", NO_COVER, "whole"), ("picture", "bunny", NO_COVER, "front")],
     2: [("layers", "bunny00", NO_COVER)],
     6: [("picture", "elephant", NO_COVER, "left")],
-    7: [("picture", "armadillo", NO_COVER, "front")],
+    7: [("picture", "armadillo", NO_COVER, "left")],
     9: [("layers", "cube", ())],
     10: [("picture", "kitten", NO_COVER, "left"), ("picture", "kitten", NO_COVER, "right")],
     11: [("stages", "bunny00", ())],
@@ -115,7 +112,7 @@ def make(number, inputs, output):
     inputs.notes, inputs.commands = [], []
     files = [inputs.file(recipe) for recipe in RECIPES[number]]
     given = {name: results.load(file, kind) for (name, kind), file in zip(module.INPUTS.items(), files)}
-    stamp = results.digest(script.read_bytes(), (HERE / "look.py").read_bytes(), *(f.read_bytes() for f in files))
+    stamp = results.digest(*(s.read_bytes() for s in (script, HERE / "look.py", HERE / "results.py")), *(f.read_bytes() for f in files))
     kept = output / f"{script.stem}.stamp"
     fresh = kept.exists() and kept.read_text() == stamp and all(stem.with_suffix(s).exists() for s in (".pdf", ".svg", ".png"))
     if not fresh:

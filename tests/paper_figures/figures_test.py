@@ -119,6 +119,35 @@ class Figures(unittest.TestCase):
         self.assertIn("--layer 1000", done.stderr)
         self.assertFalse((self.folder / "x.json").exists())
 
+    def make(self, *arguments):
+        return subprocess.run([FIGURES / "make.py", *arguments, "--results", self.folder / "results"], capture_output=True, text=True)
+
+    def test_what_did_not_change_is_not_made_again(self):
+        first, second = self.make("9", "24"), self.make("9", "24")
+        self.assertEqual((first.returncode, second.returncode), (0, 0), first.stderr + second.stderr)
+        self.assertEqual((first.stdout.count("made in"), second.stdout.count("as it was")), (2, 2), first.stdout + second.stdout)
+        drawn = self.folder / "results/paper_figures"
+        (drawn / "figure24.svg").unlink()
+        self.assertIn("figure 24  made in", self.make("24").stdout)
+        self.assertEqual(list(drawn.glob("*.part")), [])
+
+    def test_a_figure_that_cannot_be_made_is_named(self):
+        tables = self.folder / "results/tables"
+        tables.mkdir(parents=True, exist_ok=True)
+        (tables / "figure24.csv").write_text("model,height mm\nowl,10\n")
+        done = self.make("24")
+        (tables / "figure24.csv").unlink()
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stdout, 'figure 24  NOT MADE: .*figure24.csv: the column "reduction %" is missing')
+
+    def test_the_index(self):
+        import make
+        make.index([{"number": 9, "caption": "Trees <merge>", "commands": ["a & b"], "notes": ["CGAL's elk"], "made": True},
+                    {"number": 24, "missing": "no table"}], self.folder)
+        page = (self.folder / "index.html").read_text()
+        for part in ('src="figure09.png"', "Trees &lt;merge&gt;", "a &amp; b", "CGAL&#x27;s elk", "figure09.pdf", "not made: no table"):
+            self.assertIn(part, page)
+
     def test_unknown_figures(self):
         done = subprocess.run([FIGURES / "make.py", "3", "--output", self.folder / "all"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
