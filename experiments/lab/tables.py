@@ -18,7 +18,10 @@ class Table:
             return ""
         if isinstance(cell, bool):
             return "yes" if cell else "NO"
-        return format(cell, form) if isinstance(cell, (int, float)) and form else str(cell)
+        if not isinstance(cell, (int, float)) or not form:
+            return str(cell)
+        text = format(cell, form)
+        return text.removeprefix("-") if text.startswith("-") and not text.strip("-0.") else text  # no minus before a rounded zero
 
     def cells(self):
         return [[self.text(c, form) for c, (_, form) in zip(row, self.columns)] for row in self.rows]
