@@ -15,8 +15,6 @@ def build(lab):
     for name in [n for n in NAMES if n not in ("exactness", "solids")] + ["solids"]:
         runs = [r for r in wanted(lab, name) if r.kind == "generate" and r not in seen]
         seen.update(runs)
-        if not runs:
-            continue
         layers, proved = (sum(lab.values(runs, p)) for p in ("totals.layers", "verdict.layers_proved"))
         table.add(name, len(runs), sum(1 for r in runs if lab.why(r)), layers, proved, layers - proved, sum(lab.values(runs, "verdict.external_layers")),
                   *(sum(lab.values(runs, f"verdict.stages.{s}")) for s in stages))

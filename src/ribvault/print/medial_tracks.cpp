@@ -96,12 +96,13 @@ struct Axis {
 };
 
 /// The area's edges without vertices within `tolerance` of the line through their neighbours, which offsets leave behind by
-/// the dozen and which the diagram's exact predicates would pay for.
+/// the dozen and which the diagram's exact predicates would pay for. Dropping vertices may make edges cross, which the
+/// diagram does not allow: the union takes the crossings out again.
 std::vector<BoostSegment> border_of(const Region& region, Point origin, double tolerance) {
     std::vector<BoostSegment> border;
     ClipperLib::Paths cleaned = to_clipper(region);
     ClipperLib::CleanPolygons(cleaned, tolerance);
-    const Region area = from_clipper(cleaned);
+    const Region area = clip(ClipperLib::ctUnion, from_clipper(cleaned), {});
     const auto local = [&](Point p) { return BoostPoint{static_cast<int>(p.x - origin.x), static_cast<int>(p.y - origin.y)}; };
     for (const Contour& c : area)
         for (std::size_t i = 0; i < c.size(); ++i)
@@ -191,7 +192,9 @@ std::vector<PlannedTrack> medial_tracks(const Region& area, Unit width, TrackKin
     if (area.empty()) return tracks;
     const Point origin = bounding_box(area).lo;
     const double d = static_cast<double>(width);
-    Axis axis = axis_of(border_of(area, origin, d / 200), d / 4, 3 * d / 4, d / 20);
+    const std::vector<BoostSegment> border = border_of(area, origin, d / 200);
+    if (border.empty()) return tracks;
+    Axis axis = axis_of(border, d / 4, 3 * d / 4, d / 20);
     prune(axis, d);
 
     const auto emit = [&](const std::vector<Node>& chain) {
