@@ -134,7 +134,7 @@ private:
         r.verdict.supported = true;  // layer 0 lies on the bed
         if (below) r.verdict = verify_layer(layer.layer, geometry(layer), geometry(*below), s);
         if (s.support_gap > 0) check_gap(*layer.slice, swept.held.plan, r.verdict);
-        if (swept.printed_above) output->print_above = judge_print(*swept.printed_above, *swept.held.printed, s);
+        if (swept.held.judgement) output->print_above = swept.held.judgement->verdict();
         proof_ += (Time::now() - from).count();
 
         from = Time::now();

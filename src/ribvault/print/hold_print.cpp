@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "ribvault/exact/nearest_segment.hpp"
@@ -10,35 +9,17 @@
 #include "ribvault/print/drop_tiny_steps.hpp"
 #include "ribvault/print/printed_tracks.hpp"
 #include "ribvault/print/support_paths.hpp"
-#include "ribvault/verify/outside_outline.hpp"
-#include "ribvault/verify/verify_printed.hpp"
 
 namespace ribvault {
 namespace {
 
 constexpr int rounds = 6;  ///< of mending, each of which is followed by another look
 
-Point lattice(const PrintedPoint& p) {
-    return {round_to_lattice(p[0].get_d() * units_per_mm), round_to_lattice(p[1].get_d() * units_per_mm)};
-}
-
 std::vector<Segment> segments_of(const LayerPlan& plan) {
     std::vector<Segment> segments;
     for (const PlannedTrack& track : plan.tracks)
         for (const ToolPath& path : track.paths) append_segments(path, segments);
     return segments;
-}
-
-/// The stretch of the track above as a segment of the lattice.
-Segment place_of(const PrintedTrack& track, const OpenStretch& stretch) {
-    const Segment whole{lattice(track.a), lattice(track.b)};
-    const double l = length(whole);
-    const auto at = [&](double mm) {
-        const double t = l > 0 ? std::clamp(mm * units_per_mm / l, 0.0, 1.0) : 0;
-        return Point{whole.a.x + round_to_lattice(t * static_cast<double>(whole.b.x - whole.a.x)),
-                     whole.a.y + round_to_lattice(t * static_cast<double>(whole.b.y - whole.a.y))};
-    };
-    return {at(stretch.from_mm), at(stretch.to_mm)};
 }
 
 double distance(const Segment& s, const Segment& t) {
@@ -49,19 +30,10 @@ double distance(const Segment& s, const Segment& t) {
     return std::sqrt(least);
 }
 
-/// With a removal gap the object's tracks hold up what is within it: they count as so much wider (Settings::reach_of_object).
-PrintedLayer held_outside(PrintedLayer below, const Settings& settings) {
-    const Rational wider = 2 * Rational(printed_length(settings.reach_of_object() - settings.support_radius));
-    if (!settings.outside() || wider == 0) return below;
-    for (PrintedTrack& t : below.tracks)
-        if (t.feature != static_cast<int>(TrackKind::external_support)) t.width = Rational(Rational(t.width) + wider);
-    return below;
-}
-
 class Holder {
 public:
     Holder(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Cavity* beside, const Settings& settings)
-        : shell_(std::move(shell)), forest_(forest), above_(above), settings_(settings), rho_(printed_length(settings.support_radius)), beside_(beside) {
+        : shell_(std::move(shell)), forest_(forest), above_(above), settings_(settings), beside_(beside) {
         if (settings.gaps == Gaps::none)
             for (auto [e, end] = edges(forest_); e != end; ++e) forest_[*e].to_junction = true;
     }
@@ -69,18 +41,16 @@ public:
     HeldLayer run() {
         lay_tracks();
         if (!above_) return std::move(held_);
-        if (!settings_.outside()) outside_ = stretches_outside(*above_, *held_.printed);  // the outline stays the same
-        std::vector<std::size_t> all(above_->tracks.size());
-        std::iota(all.begin(), all.end(), std::size_t{0});
-        std::vector<OpenStretch> open = look(all);
+        held_.judgement.emplace(*above_, *held_.printed, settings_);
+        std::vector<OpenStretch> hanging = open();
         bool close = true;
-        for (int round = 0; settings_.gaps != Gaps::paper && !open.empty() && round < rounds; ++round) {
-            close = close && close_gaps(open) > 0;
-            if (!close) patch(open);
+        for (int round = 0; settings_.gaps != Gaps::paper && !hanging.empty() && round < rounds; ++round) {
+            close = close && close_gaps(hanging) > 0;
+            if (!close) patch(hanging);
             held_.mended = true;
-            const std::vector<Segment> before = segments_of(held_.plan);
             lay_tracks();
-            open = look(affected(open, before));
+            held_.judgement->change_below(*held_.printed);
+            hanging = open();
         }
         for (const Patch& patch : patches_) held_.patch_tracks.push_back(patch.segment);
         return std::move(held_);
@@ -99,53 +69,22 @@ private:
         held_.printed = std::make_shared<const PrintedLayer>(printed_layer(held_.plan));
     }
 
-    /// What of these tracks above (indices, increasing) inside the outline is not held up.
-    std::vector<OpenStretch> look(const std::vector<std::size_t>& which) {
-        PrintedOptions options;
-        options.regions = false, options.stretches = true;
-        PrintedLayer upper, below = held_outside(*held_.printed, settings_);
-        for (const std::size_t k : which) upper.tracks.push_back(above_->tracks[k]);
-        below.tracks.insert(below.tracks.end(), outside_.begin(), outside_.end());
-        PrintedVerdict inside = verify_printed(upper, below, rho_, options);
+    /// What of the layer above inside the outline is not held up.
+    std::vector<OpenStretch> open() const {
+        const PrintJudgement& judgement = *held_.judgement;
+        std::vector<OpenStretch> stretches = judgement.open();
         // A track that is found wanting without a stretch that shows where is mended as a whole.
-        std::vector<char> shown(which.size(), 0);
-        for (const OpenStretch& stretch : inside.stretches) shown[stretch.track] = 1;
-        for (std::size_t k = 0; k < which.size(); ++k) {
-            if (inside.track_supported[k] || shown[k]) continue;
-            const Segment whole{lattice(upper.tracks[k].a), lattice(upper.tracks[k].b)};
-            inside.stretches.push_back({k, 0, to_mm(round_to_lattice(length(whole)))});
+        std::vector<char> shown(above_->tracks.size(), 0);
+        for (const OpenStretch& stretch : stretches) shown[stretch.track] = 1;
+        for (std::size_t k = 0; k < shown.size(); ++k) {
+            if (judgement.supported(k) || shown[k]) continue;
+            const PrintedTrack& track = above_->tracks[k];
+            stretches.push_back({k, 0, std::hypot(track.b[0].get_d() - track.a[0].get_d(), track.b[1].get_d() - track.a[1].get_d())});
         }
-        std::stable_sort(inside.stretches.begin(), inside.stretches.end(), [](const OpenStretch& a, const OpenStretch& b) { return a.track < b.track; });
-        for (OpenStretch& stretch : inside.stretches) stretch.track = which[stretch.track];
-        return std::move(inside.stretches);
+        std::stable_sort(stretches.begin(), stretches.end(), [](const OpenStretch& a, const OpenStretch& b) { return a.track < b.track; });
+        return stretches;
     }
 
-    /// The tracks above that must be looked at again: those that were open, and those near a track that is not there any more
-    /// as it was. (A branch that reaches its junction takes the place of others there.)
-    std::vector<std::size_t> affected(const std::vector<OpenStretch>& open, std::vector<Segment> before) const {
-        const auto less = [](const Segment& s, const Segment& t) { return s.a != t.a ? s.a < t.a : s.b < t.b; };
-        std::vector<Segment> now = segments_of(held_.plan), gone;
-        std::sort(before.begin(), before.end(), less);
-        std::sort(now.begin(), now.end(), less);
-        std::set_difference(before.begin(), before.end(), now.begin(), now.end(), std::back_inserter(gone), less);
-        std::vector<char> again(above_->tracks.size(), 0);
-        for (const OpenStretch& stretch : open) again[stretch.track] = 1;
-        if (!gone.empty()) {
-            const NearestSegment near(std::move(gone));
-            for (std::size_t k = 0; k < again.size(); ++k) {
-                const PrintedTrack& track = above_->tracks[k];
-                Box box;
-                box.add(lattice(track.a)), box.add(lattice(track.b));
-                // Widths of the layer below are at most 3/2 d (thin walls); one d covers r + ρ and the rounding.
-                box.grow(round_to_lattice(track.width.get_d() / 2 * units_per_mm) + settings_.nozzle + settings_.support_radius);
-                near.visit(box, [&](std::uint32_t) { again[k] = 1; });
-            }
-        }
-        std::vector<std::size_t> which;
-        for (std::size_t k = 0; k < again.size(); ++k)
-            if (again[k]) which.push_back(k);
-        return which;
-    }
     /// Branches whose gap may be what lets something hang reach their junction from now on. How many walls are new.
     int close_gaps(const std::vector<OpenStretch>& open) {
         // What hangs lies within half a width of its stretch, and what would hold it within r + ρ of that.
@@ -295,7 +234,6 @@ private:
     SupportForest forest_;
     const PrintedLayer* above_;
     const Settings& settings_;
-    Rational rho_;
     HeldLayer held_;
     struct Patch {
         Segment segment;
@@ -305,52 +243,12 @@ private:
     std::optional<GapPlaces> gap_places_;
     std::vector<Patch> patches_;
     std::vector<Point> tried_;
-    std::vector<PrintedTrack> outside_;
 };
-
-std::array<double, 2> sum(const PrintedVerdict& verdict) {
-    std::array<double, 2> total{0, 0};
-    for (const std::array<double, 2>& l : verdict.unsupported_length) total[0] += l[0], total[1] += l[1];
-    return total;
-}
 
 }  // namespace
 
 HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings, const Cavity* outside) {
     return Holder(std::move(shell), forest, above, outside, settings).run();
-}
-
-PrintVerdict judge_print(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings) {
-    const Rational rho = printed_length(settings.support_radius);
-    PrintedOptions options;
-    options.regions = false, options.stretches = true;
-    const std::vector<PrintedTrack> outside = settings.outside() ? std::vector<PrintedTrack>() : stretches_outside(above, below);
-    PrintedLayer held = held_outside(below, settings);
-    held.tracks.insert(held.tracks.end(), outside.begin(), outside.end());
-    const PrintedVerdict inside = verify_printed(above, held, rho, options);
-    PrintVerdict verdict;
-    verdict.supported = inside.supported;
-    verdict.unsupported_mm = sum(inside);
-    verdict.stages = inside.stages;
-    if (!inside.stretches.empty()) {
-        const OpenStretch& first = inside.stretches.front();
-        const Segment place = place_of(above.tracks[first.track], first);
-        verdict.place = {to_mm((place.a.x + place.b.x) / 2), to_mm((place.a.y + place.b.y) / 2)};
-    }
-    if (settings.reach_of_object() > settings.support_radius) {
-        options.areas = options.stretches = false;
-        const PrintedVerdict strictly = verify_printed(above, below, rho, options);
-        verdict.external_mm = sum(strictly);
-        verdict.stages += strictly.stages;
-    }
-    if (outside.empty()) return verdict;
-    PrintedLayer upper;
-    upper.tracks = outside;
-    options.areas = options.stretches = false;
-    const PrintedVerdict hanging = verify_printed(upper, below, rho, options);
-    verdict.external_mm = sum(hanging);
-    verdict.stages += hanging.stages;
-    return verdict;
 }
 
 }  // namespace ribvault

@@ -1,16 +1,16 @@
 // What is extruded is held up by what is extruded below: supports printed so that equation (2) holds for the print.
 #pragma once
 
-#include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "ribvault/print/judge_print.hpp"
 #include "ribvault/print/layer_plan.hpp"
 #include "ribvault/settings.hpp"
 #include "ribvault/slice/cavity.hpp"
 #include "ribvault/vault/support_forest.hpp"
 #include "ribvault/verify/printed_layer.hpp"
-#include "ribvault/verify/verdict.hpp"
 
 namespace ribvault {
 
@@ -18,6 +18,7 @@ namespace ribvault {
 struct HeldLayer {
     LayerPlan plan;
     std::shared_ptr<const PrintedLayer> printed;  ///< the plan's extrusions
+    std::optional<PrintJudgement> judgement;      ///< of `above` over `printed`; nothing when there is no layer above
     bool mended = false;        ///< something was changed after the whole layer above had been looked at
     int closed_gaps = 0;        ///< branches printed up to their junction because the gap would have let something hang
     int patches = 0;            ///< short tracks added where closing gaps was not enough
@@ -27,7 +28,7 @@ struct HeldLayer {
 
 /// Completes `shell`, the plan of layer i's perimeters and covers, with the tracks of S_i (`forest`) so that every point of
 /// `above`, the print of layer i + 1 (nullptr: there is none), that lies inside the outline of this layer has material
-/// within ρ (verify/outside_outline.hpp).
+/// within ρ (verify/outside_outline.hpp). `above` and `settings` must outlive the judgement.
 ///
 /// First with the gaps of Section 4.4. Where the verifier finds something of `above` that these leave unsupported, the
 /// branches nearby are printed up to their junction (settings.gaps == Gaps::proved; with Gaps::paper nothing is done and the
@@ -38,13 +39,7 @@ struct HeldLayer {
 ///
 /// With external supports (settings.outside()) all of `above` counts, inside the outline or not, and patches may lie
 /// outside it, where `outside` (slice/outside.hpp) lets walls stand.
-/// What hold_print believes to be mended is proved by nobody yet: see judge_print.
 HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings,
                      const Cavity* outside = nullptr);
-
-/// Equation (2) for the print of a layer (`above`) over that of the layer below it, decided exactly and for all of it, whatever
-/// came before. With external supports all of it must be held up, and nothing is told apart as external; with a removal gap
-/// the object's tracks hold up what is within settings.reach_of_object() of them, and external_mm is what is farther than ρ.
-PrintVerdict judge_print(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings);
 
 }  // namespace ribvault

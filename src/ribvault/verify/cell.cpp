@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace ribvault::verify {
 
@@ -85,16 +84,50 @@ int path_crossings(const Subdivision& s, const std::vector<Track>& tracks, const
     return winding;
 }
 
-}  // namespace
-
-// The centre is a corner of all quarters, which inherit it, up to a few margins by which it may have to leave a line.
-void refer_to_centre(const Subdivision& s, Cell& cell) {
+// The centre of the cell, up to a few margins by which it may have to leave a line.
+Vec<double> off_lines(const Subdivision& s, const Cell& cell) {
     double x = cell.x, y = cell.y, u = 0.37, w = 0.59;
     while (!off_edge_lines(s, s.material, s.problem->material, cell.edges, x, y) ||
            !off_edge_lines(s, s.sites, s.problem->region, cell.region, x, y)) {
         x = cell.x + (6 * u - 3) * s.margin, y = cell.y + (6 * w - 3) * s.margin;
         u = std::fmod(u + 0.6180339887, 1.0), w = std::fmod(w + 0.7548776662, 1.0);
     }
+    return {x, y};
+}
+
+// Winding number of all edges about a point on none of them: those that a ray to +x crosses. A vertex on the ray counts as above it.
+int winding_at(const Subdivision& s, const std::vector<Track>& tracks, const std::vector<Edge>& edges, double x, double y) {
+    const auto above = [&](double height, int vertex) {
+        if (height > y + s.margin) return true;
+        if (height < y - s.margin) return false;
+        return exact_point<Rational>(s.problem->vertices[vertex]).y >= Rational(y);
+    };
+    int winding = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const Track& t = tracks[i];
+        const double end = t.ay + t.dy;
+        if (std::max(t.ay, end) < y - s.margin || std::min(t.ay, end) > y + s.margin) continue;
+        if (std::max(t.ax, t.ax + t.dx) < x - s.margin) continue;
+        const bool up = above(end, edges[i].b);
+        if (above(t.ay, edges[i].a) == up) continue;
+        if (side_of_edge(s, t, edges[i], x, y) == (up ? 1 : -1)) winding += up ? 1 : -1;
+    }
+    return winding;
+}
+
+// The state of a cell with complete lists that no single stadium of K covers. `in_piece`: one piece of M covers it.
+CellState state_of(const CoverProblem& problem, const Cell& cell, bool in_piece) {
+    if (cell.edges.empty() && cell.material_winding == 0 && cell.pieces.empty()) return CellState::settled;
+    if (cell.region.empty() && in_region(problem, cell.region_winding)) return CellState::settled;
+    if (!cell.sites.empty()) return CellState::open;
+    return in_piece || (cell.edges.empty() && cell.material_winding != 0) ? CellState::uncovered : CellState::open;
+}
+
+}  // namespace
+
+// The centre is a corner of all quarters, which inherit it.
+void refer_to_centre(const Subdivision& s, Cell& cell) {
+    const auto [x, y] = off_lines(s, cell);
     cell.material_winding += path_crossings(s, s.material, s.problem->material, cell.edges, cell, x, y);
     cell.region_winding += path_crossings(s, s.sites, s.problem->region, cell.region, cell, x, y);
     cell.ref_x = x, cell.ref_y = y;
@@ -118,31 +151,37 @@ Subdivision subdivision(const CoverProblem& problem) {
     return s;
 }
 
-Cell root_cell(const Subdivision& s, const Window& window) {
+Window root_square(const Subdivision& s, const Window& window) {
+    const double half = std::max(window.hi_x - window.lo_x, window.hi_y - window.lo_y) / 2, grown = 1.0173 * half + 64 * s.margin;
+    const double x = (window.lo_x + window.hi_x) / 2 + 0.0137 * half, y = (window.lo_y + window.hi_y) / 2 - 0.0091 * half;
+    return {x - grown, y - grown, x + grown, y + grown};
+}
+
+CellState root_cell(const Subdivision& s, const Window& window, Cell& cell) {
     const CoverProblem& problem = *s.problem;
-    const auto all = [](Indices& list, std::size_t n) {
-        list.resize(n);
-        std::iota(list.begin(), list.end(), 0);
+    const Window square = root_square(s, window);
+    cell.sites.clear(), cell.edges.clear(), cell.pieces.clear(), cell.region.clear();
+    cell.x = (square.lo_x + square.hi_x) / 2, cell.y = (square.lo_y + square.hi_y) / 2;
+    cell.half = (square.hi_x - square.lo_x) / 2 + 8 * s.margin;
+    const auto near = [&](const Track& t, double radius) {
+        const double reach = cell.half + radius + 16 * s.margin;
+        return std::max(t.ax, t.ax + t.dx) > cell.x - reach && std::min(t.ax, t.ax + t.dx) < cell.x + reach &&
+               std::max(t.ay, t.ay + t.dy) > cell.y - reach && std::min(t.ay, t.ay + t.dy) < cell.y + reach;
     };
-    Cell cell;
-    // A little larger and off the middle: symmetric input has its edges on lines through the middle.
-    const double half = std::max(window.hi_x - window.lo_x, window.hi_y - window.lo_y) / 2;
-    cell.x = (window.lo_x + window.hi_x) / 2 + 0.0137 * half, cell.y = (window.lo_y + window.hi_y) / 2 - 0.0091 * half;
-    cell.half = 1.0173 * half + 64 * s.margin;
-    all(cell.edges, problem.material.size());
-    all(cell.region, problem.region.size());
-    all(cell.sites, problem.sites.size());
-    all(cell.pieces, problem.pieces.size());
-    // Left of and below everything both winding numbers are 0.
-    double lo_x = window.lo_x, lo_y = window.lo_y;
-    for (const Vertex& v : problem.vertices) lo_x = std::min(lo_x, v.cx), lo_y = std::min(lo_y, v.cy);
-    double step = 1 + cell.half;
-    do {
-        step *= 1.0378;
-        cell.ref_x = lo_x - step, cell.ref_y = lo_y - 0.7231 * step;
-    } while (!off_edge_lines(s, s.material, s.problem->material, cell.edges, cell.ref_x, cell.ref_y) ||
-             !off_edge_lines(s, s.sites, s.problem->region, cell.region, cell.ref_x, cell.ref_y));
-    return cell;
+    for (std::size_t i = 0; i < problem.sites.size(); ++i) {
+        if (!near(s.sites[i], problem.sites[i].radius.approx)) continue;
+        cell.sites.push_back(static_cast<int>(i));
+        if (i < problem.region.size() && near(s.sites[i], 0)) cell.region.push_back(static_cast<int>(i));
+    }
+    for (std::size_t i = 0; i < problem.material.size(); ++i)
+        if (near(s.material[i], 0)) cell.edges.push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < problem.pieces.size(); ++i)
+        if (near(s.pieces[i], problem.pieces[i].radius.approx)) cell.pieces.push_back(static_cast<int>(i));
+    const auto [x, y] = off_lines(s, cell);
+    cell.ref_x = x, cell.ref_y = y;
+    cell.material_winding = winding_at(s, s.material, problem.material, x, y);
+    cell.region_winding = winding_at(s, s.sites, problem.region, x, y);
+    return state_of(problem, cell, false);
 }
 
 CellState quarter(const Subdivision& s, const Cell& parent, int index, Cell& cell) {
@@ -172,10 +211,7 @@ CellState quarter(const Subdivision& s, const Cell& parent, int index, Cell& cel
     }
     cell.ref_x = parent.ref_x, cell.ref_y = parent.ref_y;
     cell.material_winding = parent.material_winding, cell.region_winding = parent.region_winding;
-    if (cell.edges.empty() && cell.material_winding == 0 && cell.pieces.empty()) return CellState::settled;
-    if (cell.region.empty() && in_region(problem, cell.region_winding)) return CellState::settled;
-    if (!cell.sites.empty()) return CellState::open;
-    return in_piece || (cell.edges.empty() && cell.material_winding != 0) ? CellState::uncovered : CellState::open;
+    return state_of(problem, cell, in_piece);
 }
 
 }  // namespace ribvault::verify

@@ -39,8 +39,12 @@ struct Subdivision {
 };
 Subdivision subdivision(const CoverProblem& problem);
 
-/// The first cell, always open: it holds everything and covers the window.
-Cell root_cell(const Subdivision& s, const Window& window);
+/// The square of the first cell for a window: a little larger than the square about it and off its middle, as symmetric input has its
+/// edges on lines through the middle.
+Window root_square(const Subdivision& s, const Window& window);
+
+/// That cell into `cell`, and its state. The lists and windings are complete in any case.
+CellState root_cell(const Subdivision& s, const Window& window, Cell& cell);
 
 /// Moves the reference point of an open cell to its centre. Needed before its quarters are taken.
 void refer_to_centre(const Subdivision& s, Cell& cell);

@@ -146,33 +146,37 @@ struct Leaf {
 
 }  // namespace
 
-std::optional<Uncovered> find_uncovered(const CoverProblem& problem, const Window& window, StageCounts& stages) {
-    if (window.lo_x > window.hi_x || window.lo_y > window.hi_y) return std::nullopt;
+std::optional<Uncovered> find_uncovered(const CoverProblem& problem, std::span<const Window> windows, StageCounts& stages) {
+    if (windows.empty()) return std::nullopt;
     const Subdivision s = subdivision(problem);
     double smallest = 0;
     for (const Stadium& site : problem.sites) smallest = smallest == 0 ? site.radius.approx : std::min(smallest, site.radius.approx);
-    std::vector<Cell> open{root_cell(s, window)};
+    std::vector<Cell> open;
     Cell child;
-    while (!open.empty()) {
-        Cell cell = std::move(open.back());
-        open.pop_back();
-        // A cell smaller than this that meets the boundary of K's region lies in the stadium there, so it is settled.
-        // Cells near the margin are the end in any case: doubles cannot tell points apart there, exact numbers do.
-        const bool few = cell.sites.size() <= 3 && cell.edges.size() <= 4 && cell.pieces.size() <= 2;
-        if (cell.region.empty() && (few || cell.half < smallest / 16 || cell.half < 64 * s.margin)) {
-            Uncovered found;
-            if (Leaf(s, cell, stages).refute(found)) return found;
-            continue;
-        }
-        refer_to_centre(s, cell);
-        for (int i = 0; i < 4; ++i) {
-            const CellState state = quarter(s, cell, i, child);
-            if (state == CellState::open) {
-                open.push_back(std::move(child));
+    // Keeps `child` when it is open; says whether all of it is uncovered.
+    const auto uncovered = [&](CellState state) {
+        if (state == CellState::open)
+            open.push_back(std::move(child));
+        else
+            ++stages.interval;
+        return state == CellState::uncovered;
+    };
+    for (const Window& window : windows) {
+        if (uncovered(root_cell(s, window, child))) return Uncovered{child.x, child.y, {1, 0}, {}, {}};
+        while (!open.empty()) {
+            Cell cell = std::move(open.back());
+            open.pop_back();
+            // A cell smaller than this that meets the boundary of K's region lies in the stadium there, so it is settled.
+            // Cells near the margin are the end in any case: doubles cannot tell points apart there, exact numbers do.
+            const bool few = cell.sites.size() <= 3 && cell.edges.size() <= 4 && cell.pieces.size() <= 2;
+            if (cell.region.empty() && (few || cell.half < smallest / 16 || cell.half < 64 * s.margin)) {
+                Uncovered found;
+                if (Leaf(s, cell, stages).refute(found)) return found;
                 continue;
             }
-            ++stages.interval;
-            if (state == CellState::uncovered) return Uncovered{child.x, child.y, {1, 0}, {}, {}};
+            refer_to_centre(s, cell);
+            for (int i = 0; i < 4; ++i)
+                if (uncovered(quarter(s, cell, i, child))) return Uncovered{child.x, child.y, {1, 0}, {}, {}};
         }
     }
     return std::nullopt;

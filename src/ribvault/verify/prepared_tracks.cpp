@@ -6,10 +6,10 @@
 
 namespace ribvault::verify {
 
-std::vector<PreparedTrack> prepare(const PrintedLayer& layer) {
-    std::vector<PreparedTrack> tracks;
-    tracks.reserve(layer.tracks.size());
-    for (const PrintedTrack& t : layer.tracks) {
+std::vector<PreparedTrack> prepare(std::span<const PrintedTrack> tracks) {
+    std::vector<PreparedTrack> prepared;
+    prepared.reserve(tracks.size());
+    for (const PrintedTrack& t : tracks) {
         PreparedTrack p;
         p.ax = t.a[0].get_d(), p.ay = t.a[1].get_d(), p.bx = t.b[0].get_d(), p.by = t.b[1].get_d();
         p.dx = p.bx - p.ax, p.dy = p.by - p.ay;
@@ -17,9 +17,9 @@ std::vector<PreparedTrack> prepare(const PrintedLayer& layer) {
         p.length = std::sqrt(norm);
         p.inverse_norm = norm > DBL_MIN ? 1 / norm : 0;
         p.half = t.width.get_d() / 2;
-        tracks.push_back(p);
+        prepared.push_back(p);
     }
-    return tracks;
+    return prepared;
 }
 
 double centre_distance(const PreparedTrack& t, double x, double y) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "ribvault/verify/printed_layer.hpp"
@@ -15,7 +16,7 @@ struct PreparedTrack {
     double half = 0;                                      ///< half the width
 };
 
-std::vector<PreparedTrack> prepare(const PrintedLayer& layer);
+std::vector<PreparedTrack> prepare(std::span<const PrintedTrack> tracks);
 
 /// Distance of (x, y) to the centre line.
 double centre_distance(const PreparedTrack& t, double x, double y);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "ribvault/verify/local_cover.hpp"
 
@@ -20,17 +21,18 @@ struct Uncovered {
     Leaving leaving;
 };
 
-/// Decides M \ K = {} exactly (docs/verifier.md). Nothing when it is empty. Precondition: M \ K lies inside `window`.
-/// Under upward rounding; adds to `stages`.
-std::optional<Uncovered> find_uncovered(const CoverProblem& problem, const Window& window, StageCounts& stages);
+/// Decides M \ K = {} exactly (docs/verifier.md). Nothing when it is empty. Precondition: M \ K lies inside the windows, which may
+/// overlap. Under upward rounding; adds to `stages`.
+std::optional<Uncovered> find_uncovered(const CoverProblem& problem, std::span<const Window> windows, StageCounts& stages);
 
 /// Certified enclosure of the area of M \ K, to about 1 % or as far as about `max_cells` cells go, and the largest cell
 /// found that lies in M \ K as a whole.
+/// Precondition: as for find_uncovered.
 struct AreaEnclosure {
     double lo = 0, hi = 0;  ///< square lattice units
     double x = 0, y = 0;    ///< centre of the largest uncovered cell
     double half = 0;        ///< half its side; 0 when no cell is uncovered as a whole
 };
-AreaEnclosure enclose_area(const CoverProblem& problem, const Window& window, int max_cells);
+AreaEnclosure enclose_area(const CoverProblem& problem, std::span<const Window> windows, int max_cells);
 
 }  // namespace ribvault::verify

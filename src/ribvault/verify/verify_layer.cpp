@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "ribvault/error.hpp"
+#include "ribvault/verify/boundary_match.hpp"
 #include "ribvault/verify/cavity_check.hpp"
 #include "ribvault/verify/track_cover.hpp"
 #include "ribvault/verify/witness.hpp"
@@ -80,10 +81,52 @@ Window window_of_m(const CoverProblem& problem) {
     return w;
 }
 
-std::optional<Unsupported> decide(const CoverProblem& problem, const Window& window, double rho, StageCounts& stages) {
-    const std::optional<Uncovered> found = find_uncovered(problem, window, stages);
+/// Windows that cover the same, for less work: neighbours in the list as one where that costs little, about as high as wide.
+std::vector<Window> gathered(const std::vector<Window>& windows, double rho) {
+    const double rim = 5 * rho;  // what a window costs beside its area
+    const auto cost = [rim](const Window& w) { return (w.hi_x - w.lo_x + rim) * (w.hi_y - w.lo_y + rim); };
+    constexpr std::size_t back = 16;
+    std::vector<Window> joined, result;
+    for (const Window& w : windows) {
+        bool entered = false;
+        for (std::size_t k = joined.size(); k-- > 0 && k + back >= joined.size() && !entered;) {
+            Window& other = joined[k];
+            const Window both{std::min(w.lo_x, other.lo_x), std::min(w.lo_y, other.lo_y), std::max(w.hi_x, other.hi_x), std::max(w.hi_y, other.hi_y)};
+            if (cost(both) > cost(w) + cost(other)) continue;
+            other = both;
+            entered = true;
+        }
+        if (!entered) joined.push_back(w);
+    }
+    for (const Window& w : joined) {
+        const double wide = w.hi_x - w.lo_x, high = w.hi_y - w.lo_y;
+        const auto parts = [rim](double side, double other) { return std::clamp(std::round(side / std::max(other, rim)), 1.0, 64.0); };
+        const double columns = parts(wide, high), rows = parts(high, wide);
+        for (double i = 0; i < columns; ++i)
+            for (double j = 0; j < rows; ++j)
+                result.push_back({w.lo_x + i / columns * wide, w.lo_y + j / rows * high, w.lo_x + (i + 1) / columns * wide, w.lo_y + (j + 1) / rows * high});
+    }
+    return result;
+}
+
+/// Windows for M \ K. `moved`: what bounds M's region, or at least a region that agrees with it outside K; `fixed`: what bounds K's.
+/// Everything of M's region outside K has another winding number about one than about the other.
+std::vector<Window> windows_of(const CoverProblem& problem, const std::vector<Edge>& moved, double rho) {
+    std::optional<std::vector<Window>> windows = windows_of_change(problem.vertices, moved, problem.region, rho);
+    if (!windows && problem.material.empty() && problem.pieces.empty()) return {};
+    if (!windows) return {window_of_m(problem)};
+    for (const Stadium& piece : problem.pieces) {
+        Window box = empty_window;
+        for (const int end : {piece.a, piece.b}) grow_window(box, problem, end, piece.radius.approx + 1);
+        windows->push_back(box);
+    }
+    return gathered(*windows, rho);
+}
+
+std::optional<Unsupported> decide(const CoverProblem& problem, const std::vector<Window>& windows, double rho, StageCounts& stages) {
+    const std::optional<Uncovered> found = find_uncovered(problem, windows, stages);
     if (!found) return std::nullopt;
-    return describe_uncovered(problem, window, *found, rho);
+    return describe_uncovered(problem, windows, *found, rho);
 }
 
 }  // namespace
@@ -121,12 +164,13 @@ LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const Lay
     for (const Edge& e : below.outline) external.sites.push_back({e.a, e.b, rho});
     if (settings.outside())
         for (const Edge& t : below.tracks) external.sites.push_back({t.a, t.b, r + rho});
-    verdict.external = decide(external, window_of_m(external), rho, verdict.stages);
+    const std::vector<Window> outside = windows_of(external, above.outline, rho);
+    verdict.external = decide(external, outside, rho, verdict.stages);
     bool held_outside = !settings.outside() || !verdict.external;
     if (!held_outside && settings.reach_of_object() > settings.support_radius) {
         // Within the removal gap: K = (O_i)^{g + r ↑} and the tracks.
         for (std::size_t k = 0; k < external.region.size(); ++k) external.sites[k].radius = static_cast<double>(settings.reach_of_object());
-        held_outside = !decide(external, window_of_m(external), rho, verdict.stages);
+        held_outside = !decide(external, outside, rho, verdict.stages);
     }
 
     // Internal: K = the points within ρ of the outside of C_i, and within r + ρ of a centre line of S_i.
@@ -140,11 +184,7 @@ LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const Lay
         internal.region_outside = true;
         for (const Edge& e : below.cavity) internal.sites.push_back({e.a, e.b, rho});
         for (const Edge& t : below.tracks) internal.sites.push_back({t.a, t.b, r + rho});
-        Window window = window_of_m(internal), cavity = empty_window;
-        for (const Edge& e : below.cavity) grow_window(cavity, internal, e.a, 1);
-        window = {std::max(window.lo_x, cavity.lo_x), std::max(window.lo_y, cavity.lo_y),
-                  std::min(window.hi_x, cavity.hi_x), std::min(window.hi_y, cavity.hi_y)};
-        verdict.internal = decide(internal, window, rho, verdict.stages);
+        verdict.internal = decide(internal, windows_of(internal, above.cavity, rho), rho, verdict.stages);
     }
     verdict.supported = !verdict.internal && held_outside;
     return verdict;

@@ -140,7 +140,7 @@ std::vector<OpenPart> Judge::parts_of(const std::vector<Stretch>& gaps, const st
 bool Judge::uncovered(OpenPart& part) {
     const auto local = std::make_shared<LocalProblem>();
     build_part_problem(pair_, part, *local);
-    part.found = find_uncovered(local->problem, local->window, verdict_.stages);
+    part.found = find_uncovered(local->problem, {&local->window, 1}, verdict_.stages);
     if (part.found) part.local = local;
     return part.found.has_value();
 }
@@ -217,7 +217,7 @@ PrintedVerdict verify_printed(const PrintedLayer& upper, const PrintedLayer& low
     verdict.track_supported.assign(upper.tracks.size(), 1);
     PrintedPair pair;
     pair.upper = upper.tracks, pair.lower = lower.tracks;
-    pair.above = prepare(upper), pair.below = prepare(lower);
+    pair.above = prepare(upper.tracks), pair.below = prepare(lower.tracks);
     pair.rho = rho, pair.rho_approx = rho.get_d();
     const Millimetres reach(rho);
     pair.radii.reserve(lower.tracks.size());

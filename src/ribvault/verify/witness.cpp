@@ -91,10 +91,10 @@ bool in_uncovered(const CoverProblem& problem, const std::array<double, 2>& mm) 
     return !in_region(problem, winding_at(problem, problem.region, v));
 }
 
-Unsupported describe_uncovered(const CoverProblem& problem, const Window& window, const Uncovered& start,
+Unsupported describe_uncovered(const CoverProblem& problem, std::span<const Window> windows, const Uncovered& start,
                                double reach) {
     Unsupported result;
-    const AreaEnclosure area = enclose_area(problem, window, area_cells);
+    const AreaEnclosure area = enclose_area(problem, windows, area_cells);
     const double unit_area = static_cast<double>(units_per_mm) * static_cast<double>(units_per_mm);
     result.area_lo = area.lo / unit_area, result.area_hi = area.hi / unit_area;
     std::optional<std::array<double, 2>> witness;

@@ -1,0 +1,157 @@
+#include "ribvault/print/judge_print.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "ribvault/print/printed_tracks.hpp"
+#include "ribvault/print/tool_path.hpp"
+#include "ribvault/verify/outside_outline.hpp"
+#include "ribvault/verify/prepared_tracks.hpp"
+
+namespace ribvault {
+namespace {
+
+Point lattice(const PrintedPoint& p) {
+    return {round_to_lattice(p[0].get_d() * units_per_mm), round_to_lattice(p[1].get_d() * units_per_mm)};
+}
+
+bool earlier(const PrintedTrack& s, const PrintedTrack& t) { return std::tie(s.a, s.b, s.width, s.outline) < std::tie(t.a, t.b, t.width, t.outline); }
+bool same(const PrintedTrack& s, const PrintedTrack& t) { return s.a == t.a && s.b == t.b && s.width == t.width && s.outline == t.outline; }
+
+/// The tracks that one of the two has more often than the other. Most are the same at the beginning.
+std::vector<PrintedTrack> difference(const std::vector<PrintedTrack>& one, const std::vector<PrintedTrack>& other) {
+    const auto [from, begin] = std::mismatch(one.begin(), one.end(), other.begin(), other.end(), same);
+    std::vector<PrintedTrack> left(from, one.end()), right(begin, other.end()), result;
+    std::sort(left.begin(), left.end(), earlier);
+    std::sort(right.begin(), right.end(), earlier);
+    std::set_symmetric_difference(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(result), earlier);
+    return result;
+}
+
+/// Indices (increasing) of at least those of `tracks` whose stadium comes within ρ of the stadium of one of `others`.
+std::vector<std::size_t> those_near(const std::vector<PrintedTrack>& tracks, const std::vector<PrintedTrack>& others, double rho) {
+    const std::vector<verify::PreparedTrack> here = verify::prepare(tracks), there = verify::prepare(others);
+    const double margin = verify::margin_of(verify::largest_coordinate(here, there, rho));
+    const verify::TrackGrid grid(there, rho + 4 * margin);
+    std::vector<std::size_t> near;
+    std::vector<int> found;
+    for (std::size_t k = 0; k < here.size(); ++k) {
+        grid.near(here[k], here[k].half + 4 * margin, found);
+        if (!found.empty()) near.push_back(k);
+    }
+    return near;
+}
+
+std::vector<PrintedTrack> chosen(const std::vector<PrintedTrack>& tracks, const std::vector<std::size_t>& which) {
+    std::vector<PrintedTrack> result;
+    result.reserve(which.size());
+    for (const std::size_t k : which) result.push_back(tracks[k]);
+    return result;
+}
+
+std::array<double, 2> sum(const std::vector<std::array<double, 2>>& lengths) {
+    std::array<double, 2> total{0, 0};
+    for (const std::array<double, 2>& l : lengths) total[0] += l[0], total[1] += l[1];
+    return total;
+}
+
+}  // namespace
+
+Segment place_of(const PrintedTrack& track, const OpenStretch& stretch) {
+    const Segment whole{lattice(track.a), lattice(track.b)};
+    const double l = length(whole);
+    const auto at = [&](double mm) {
+        const double t = l > 0 ? std::clamp(mm * units_per_mm / l, 0.0, 1.0) : 0;
+        return Point{whole.a.x + round_to_lattice(t * static_cast<double>(whole.b.x - whole.a.x)),
+                     whole.a.y + round_to_lattice(t * static_cast<double>(whole.b.y - whole.a.y))};
+    };
+    return {at(stretch.from_mm), at(stretch.to_mm)};
+}
+
+PrintJudgement::PrintJudgement(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings)
+    : above_(&above), below_(&below), settings_(&settings) {
+    if (!settings.outside()) outside_ = stretches_outside(above, below);
+    lower_ = material_below();
+    supported_.assign(above.tracks.size(), 1);
+    unsupported_length_.assign(above.tracks.size(), {0, 0});
+    std::vector<std::size_t> all(above.tracks.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    look(all, lower_);
+}
+
+void PrintJudgement::change_below(const PrintedLayer& below) {
+    below_ = &below;
+    std::vector<PrintedTrack> now = material_below();
+    std::swap(lower_, now);
+    const std::vector<PrintedTrack> changed = difference(lower_, now);
+    if (changed.empty()) return;
+    if (std::any_of(changed.begin(), changed.end(), [](const PrintedTrack& t) { return t.outline; })) {
+        const StageCounts before = stages_;
+        *this = PrintJudgement(*above_, below, *settings_);
+        stages_ += before;
+        return;
+    }
+    const double rho = to_mm(settings_->support_radius);
+    const std::vector<std::size_t> again = those_near(above_->tracks, changed, rho);
+    look(again, chosen(lower_, those_near(lower_, chosen(above_->tracks, again), rho)));
+}
+
+/// With a removal gap the object's tracks hold up what is within it: they count as so much wider (Settings::reach_of_object).
+std::vector<PrintedTrack> PrintJudgement::material_below() const {
+    std::vector<PrintedTrack> lower = below_->tracks;
+    const Rational wider = 2 * Rational(printed_length(settings_->reach_of_object() - settings_->support_radius));
+    if (settings_->outside() && wider != 0)
+        for (PrintedTrack& t : lower)
+            if (t.feature != static_cast<int>(TrackKind::external_support)) t.width = Rational(Rational(t.width) + wider);
+    lower.insert(lower.end(), outside_.begin(), outside_.end());
+    return lower;
+}
+
+/// Judges these tracks above (indices, increasing) anew over `lower`, which has all that comes near them.
+void PrintJudgement::look(const std::vector<std::size_t>& which, std::vector<PrintedTrack> lower) {
+    PrintedOptions options;
+    options.regions = false, options.stretches = true;
+    PrintedLayer upper, below;
+    upper.tracks = chosen(above_->tracks, which), below.tracks = std::move(lower);
+    const PrintedVerdict verdict = verify_printed(upper, below, printed_length(settings_->support_radius), options);
+    stages_ += verdict.stages;
+    std::erase_if(open_, [&](const OpenStretch& s) { return std::binary_search(which.begin(), which.end(), s.track); });
+    for (std::size_t k = 0; k < which.size(); ++k) {
+        supported_[which[k]] = verdict.track_supported[k];
+        unsupported_length_[which[k]] = verdict.unsupported_length[k];
+    }
+    for (const OpenStretch& stretch : verdict.stretches) open_.push_back({which[stretch.track], stretch.from_mm, stretch.to_mm});
+    std::stable_sort(open_.begin(), open_.end(), [](const OpenStretch& a, const OpenStretch& b) { return a.track < b.track; });
+}
+
+PrintVerdict PrintJudgement::verdict() const {
+    PrintVerdict verdict;
+    verdict.supported = std::all_of(supported_.begin(), supported_.end(), [](char yes) { return yes != 0; });
+    verdict.unsupported_mm = sum(unsupported_length_);
+    verdict.stages = stages_;
+    if (!open_.empty()) {
+        const Segment place = place_of(above_->tracks[open_.front().track], open_.front());
+        verdict.place = {to_mm((place.a.x + place.b.x) / 2), to_mm((place.a.y + place.b.y) / 2)};
+    }
+    const auto external = [&](const PrintedLayer& upper) {
+        PrintedOptions options;
+        options.areas = options.regions = false;
+        const PrintedVerdict hangs = verify_printed(upper, *below_, printed_length(settings_->support_radius), options);
+        verdict.external_mm = sum(hangs.unsupported_length);
+        verdict.stages += hangs.stages;
+    };
+    if (settings_->outside() && settings_->reach_of_object() > settings_->support_radius) external(*above_);
+    if (!outside_.empty()) {
+        PrintedLayer upper;
+        upper.tracks = outside_;
+        external(upper);
+    }
+    return verdict;
+}
+
+PrintVerdict judge_print(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings) {
+    return PrintJudgement(above, below, settings).verdict();
+}
+
+}  // namespace ribvault
