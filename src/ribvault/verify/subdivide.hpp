@@ -25,13 +25,12 @@ struct Uncovered {
 /// overlap. Under upward rounding; adds to `stages`.
 std::optional<Uncovered> find_uncovered(const CoverProblem& problem, std::span<const Window> windows, StageCounts& stages);
 
-/// Certified enclosure of the area of M \ K, to about 1 % or as far as about `max_cells` cells go, and the largest cell
-/// found that lies in M \ K as a whole.
-/// Precondition: as for find_uncovered.
+/// Certified enclosure of the area of M \ K, to 1 % or as far as about `max_cells` cells go, and a point that as far as doubles tell is in
+/// the largest part found to be uncovered. Precondition: as for find_uncovered.
 struct AreaEnclosure {
     double lo = 0, hi = 0;  ///< square lattice units
-    double x = 0, y = 0;    ///< centre of the largest uncovered cell
-    double half = 0;        ///< half its side; 0 when no cell is uncovered as a whole
+    double x = 0, y = 0;    ///< that point
+    bool known = false;     ///< whether there is one
 };
 AreaEnclosure enclose_area(const CoverProblem& problem, std::span<const Window> windows, int max_cells);
 

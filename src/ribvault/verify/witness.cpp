@@ -10,7 +10,7 @@ namespace ribvault::verify {
 
 namespace {
 
-constexpr int area_cells = 12000;
+constexpr int area_cells = 6000;
 
 Located mm_point(const CoverProblem& problem, const std::array<double, 2>& mm) {
     const double scale = static_cast<double>(units_per_mm);
@@ -98,7 +98,7 @@ Unsupported describe_uncovered(const CoverProblem& problem, std::span<const Wind
     const double unit_area = static_cast<double>(units_per_mm) * static_cast<double>(units_per_mm);
     result.area_lo = area.lo / unit_area, result.area_hi = area.hi / unit_area;
     std::optional<std::array<double, 2>> witness;
-    if (area.half > 0) {
+    if (area.known) {
         const std::array<double, 2> centre{area.x / static_cast<double>(units_per_mm),
                                            area.y / static_cast<double>(units_per_mm)};
         if (in_uncovered(problem, centre)) witness = centre;
