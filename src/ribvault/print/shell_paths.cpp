@@ -106,7 +106,7 @@ void append_gap_fill(const Region& outline, const Region& cavity, int perimeters
                      LayerPlan& plan) {
     const double width = static_cast<double>(w);
     constexpr double apart = 10;  // lattice units: keeps Clipper away from nearly coincident borders
-    const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - apart), mitred(cavity, apart));
+    const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - 2 * apart), cavity);
     Region filled;
     for (const Region& area : areas)
         for (Contour& c : mitred(area, width / 2 + 2 * apart)) filled.push_back(std::move(c));

@@ -66,10 +66,10 @@ TrackGrid::TrackGrid(const std::vector<PreparedTrack>& tracks, double reach) : t
 }
 
 int TrackGrid::column(double x) const {
-    return static_cast<int>(std::clamp(std::floor((x - lo_x_) / cell_), 0.0, columns_ - 1.0));
+    return static_cast<int>(std::clamp((x - lo_x_) / cell_, 0.0, columns_ - 1.0));
 }
 int TrackGrid::row(double y) const {
-    return static_cast<int>(std::clamp(std::floor((y - lo_y_) / cell_), 0.0, rows_ - 1.0));
+    return static_cast<int>(std::clamp((y - lo_y_) / cell_, 0.0, rows_ - 1.0));
 }
 
 // Row by row, what of the centre line is within `radius` of the row, and `radius` on both sides. A thousandth of a cell

@@ -50,6 +50,13 @@ private:
     std::vector<FrameStadium> seen_;
 };
 
+// How much farther the track's ends are from a segment below than R - w/2 allows, R being that one's stadium's radius.
+double excess(const PrintedPair& pair, const PreparedTrack& t, const PreparedTrack& below) {
+    const double reach = below.half + pair.rho_approx - t.half;
+    if (reach < 0) return reach < -pair.margin ? HUGE_VAL : 0;
+    return std::max(centre_distance(below, t.ax, t.ay), centre_distance(below, t.bx, t.by)) - reach;
+}
+
 // When both ends of the track lie within R - w/2 of one segment below, R being its stadium's radius, then so does all
 // of it, and its stadium lies in that one. Ties included.
 bool Judge::follows_one() {
@@ -58,15 +65,7 @@ bool Judge::follows_one() {
     std::vector<int> undecided;
     for (const int k : near_) {
         const auto i = static_cast<std::size_t>(k);
-        const PreparedTrack& b = pair_.below[i];
-        const double reach = b.half + pair_.rho_approx - t.half;
-        if (reach < -pair_.margin) continue;
-        const double d = std::max(centre_distance(b, t.ax, t.ay), centre_distance(b, t.bx, t.by));
-        if (d < reach - pair_.margin) {
-            ++verdict_.stages.interval;
-            return true;
-        }
-        if (d <= reach + pair_.margin) undecided.push_back(k);
+        if (std::abs(excess(pair_, t, pair_.below[i])) <= pair_.margin) undecided.push_back(k);
     }
     for (const int k : undecided) {
         const auto i = static_cast<std::size_t>(k);
@@ -172,6 +171,12 @@ bool Judge::violates(std::vector<OpenPart> parts, bool known) {
 void Judge::judge(int index) {
     track_ = static_cast<std::size_t>(index);
     const PreparedTrack& t = pair_.above[track_];
+    // A stadium below that contains the track's contains its middle.
+    const auto follows = [&](int k) { return excess(pair_, t, pair_.below[static_cast<std::size_t>(k)]) < -pair_.margin; };
+    if (pair_.grid.any_at((t.ax + t.bx) / 2, (t.ay + t.by) / 2, follows)) {
+        ++verdict_.stages.interval;
+        return;
+    }
     pair_.grid.near(t, t.half + 2 * window_slack(pair_.margin), near_);
     if (follows_one()) return;
     const TrackFrame frame(t);
