@@ -16,8 +16,10 @@ Point lattice(const PrintedPoint& p) {
     return {round_to_lattice(p[0].get_d() * units_per_mm), round_to_lattice(p[1].get_d() * units_per_mm)};
 }
 
-bool earlier(const PrintedTrack& s, const PrintedTrack& t) { return std::tie(s.a, s.b, s.width, s.outline) < std::tie(t.a, t.b, t.width, t.outline); }
-bool same(const PrintedTrack& s, const PrintedTrack& t) { return s.a == t.a && s.b == t.b && s.width == t.width && s.outline == t.outline; }
+/// All of a track that a verdict depends on.
+auto key(const PrintedTrack& t) { return std::tie(t.a, t.b, t.width, t.outline); }
+bool earlier(const PrintedTrack& s, const PrintedTrack& t) { return key(s) < key(t); }
+bool same(const PrintedTrack& s, const PrintedTrack& t) { return key(s) == key(t); }
 
 /// The tracks that one of the two has more often than the other. Most are the same at the beginning.
 std::vector<PrintedTrack> difference(const std::vector<PrintedTrack>& one, const std::vector<PrintedTrack>& other) {

@@ -25,11 +25,7 @@ Foot foot(Spot p, Spot q, Spot c) {
     return {{p.x + t * dx, p.y + t * dy}, t};
 }
 
-void add(Window& w, Spot p) {
-    w.lo_x = std::min(w.lo_x, p.x), w.hi_x = std::max(w.hi_x, p.x);
-    w.lo_y = std::min(w.lo_y, p.y), w.hi_y = std::max(w.hi_y, p.y);
-}
-constexpr Window nothing{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+void add(Window& w, Spot p) { w = united(w, {p.x, p.y, p.x, p.y}); }
 
 /// A closed chain of points; the first one is not repeated.
 using Loop = std::vector<Spot>;
@@ -62,7 +58,7 @@ public:
 
 private:
     static Window box_of(const Loop& loop) {
-        Window box = nothing;
+        Window box = empty_window;
         for (const Spot p : loop) add(box, p);
         return box;
     }
@@ -150,7 +146,7 @@ private:
 
     /// From partners x and y to the next ones that are found.
     void leap(std::size_t& i, std::size_t& j, Spot& x, Spot& y) {
-        Window box = nothing;
+        Window box = empty_window;
         add(box, x), add(box, y);
         prepare();
         const double from_a = far_a_[i - 1], from_b = far_b_[j - 1];

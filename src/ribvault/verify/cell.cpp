@@ -162,7 +162,7 @@ CellState root_cell(const Subdivision& s, const Window& window, Cell& cell) {
     const Window square = root_square(s, window);
     cell.sites.clear(), cell.edges.clear(), cell.pieces.clear(), cell.region.clear();
     cell.x = (square.lo_x + square.hi_x) / 2, cell.y = (square.lo_y + square.hi_y) / 2;
-    cell.half = (square.hi_x - square.lo_x) / 2 + 8 * s.margin;
+    cell.half = (square.hi_x - square.lo_x) / 2;
     const auto near = [&](const Track& t, double radius) {
         const double reach = cell.half + radius + 16 * s.margin;
         return std::max(t.ax, t.ax + t.dx) > cell.x - reach && std::min(t.ax, t.ax + t.dx) < cell.x + reach &&

@@ -8,8 +8,9 @@ namespace ribvault::verify {
 
 namespace {
 
-bool overlap(const Window& p, const Window& q) {
-    return std::max(p.lo_x, q.lo_x) < std::min(p.hi_x, q.hi_x) && std::max(p.lo_y, q.lo_y) < std::min(p.hi_y, q.hi_y);
+/// Whether they come within `margin` of each other.
+bool meet(const Window& p, const Window& q, double margin) {
+    return std::max(p.lo_x, q.lo_x) < std::min(p.hi_x, q.hi_x) + margin && std::max(p.lo_y, q.lo_y) < std::min(p.hi_y, q.hi_y) + margin;
 }
 
 /// Windows whose root cells do not overlap, in place of these.
@@ -17,12 +18,11 @@ std::vector<Window> apart(const Subdivision& s, std::span<const Window> windows)
     std::vector<Window> result;
     for (Window window : windows) {
         for (std::size_t k = 0; k < result.size();) {
-            if (!overlap(root_square(s, result[k]), root_square(s, window))) {
+            if (!meet(root_square(s, result[k]), root_square(s, window), s.margin)) {
                 ++k;
                 continue;
             }
-            window = {std::min(window.lo_x, result[k].lo_x), std::min(window.lo_y, result[k].lo_y), std::max(window.hi_x, result[k].hi_x),
-                      std::max(window.hi_y, result[k].hi_y)};
+            window = united(window, result[k]);
             result[k] = result.back();
             result.pop_back();
             k = 0;
@@ -152,7 +152,8 @@ AreaEnclosure enclose_area(const CoverProblem& problem, std::span<const Window> 
         refer_to_centre(s, part.cell);
         for (int i = 0; i < 4; ++i) enter(quarter(s, part.cell, i, child));
     }
-    // Rounding of a few thousand sums of at most the windows' areas: far below one part in 10^9 of what is in doubt or certain.
+    // The upper bound was rounded up at every step. The lower one never was above the area, so that rounding a few thousand sums is far
+    // below 1e-9 of it.
     area.lo = std::max(0.0, area.lo * (1 - 1e-9) - 1e-9 * (area.hi - area.lo));
     area.hi = area.hi * (1 + 1e-9);
     return area;

@@ -1,6 +1,8 @@
 // The search for uncovered points: cells that are settled as a whole, and candidate points in the few that are not.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 
@@ -12,6 +14,10 @@ namespace ribvault::verify {
 struct Window {
     double lo_x = 0, lo_y = 0, hi_x = 0, hi_y = 0;
 };
+constexpr Window empty_window{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+inline Window united(const Window& v, const Window& w) {
+    return {std::min(v.lo_x, w.lo_x), std::min(v.lo_y, w.lo_y), std::max(v.hi_x, w.hi_x), std::max(v.hi_y, w.hi_y)};
+}
 
 /// A point of the closure of M \ K, and a direction in which to look for a point of M \ K itself. Lattice units.
 struct Uncovered {

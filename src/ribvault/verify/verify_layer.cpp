@@ -71,13 +71,9 @@ void grow_window(Window& w, const CoverProblem& problem, int vertex, double by) 
     w.lo_y = std::min(w.lo_y, v.y.inf() - by), w.hi_y = std::max(w.hi_y, v.y.sup() + by);
 }
 
-constexpr Window empty_window{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-
-Window window_of_m(const CoverProblem& problem) {
+Window window_of(const CoverProblem& problem, const Stadium& piece) {
     Window w = empty_window;
-    for (const Edge& e : problem.material) grow_window(w, problem, e.a, 1);
-    for (const Stadium& piece : problem.pieces)
-        for (const int end : {piece.a, piece.b}) grow_window(w, problem, end, piece.radius.approx + 1);
+    for (const int end : {piece.a, piece.b}) grow_window(w, problem, end, piece.radius.approx + 1);
     return w;
 }
 
@@ -91,7 +87,7 @@ std::vector<Window> gathered(const std::vector<Window>& windows, double rho) {
         bool entered = false;
         for (std::size_t k = joined.size(); k-- > 0 && k + back >= joined.size() && !entered;) {
             Window& other = joined[k];
-            const Window both{std::min(w.lo_x, other.lo_x), std::min(w.lo_y, other.lo_y), std::max(w.hi_x, other.hi_x), std::max(w.hi_y, other.hi_y)};
+            const Window both = united(w, other);
             if (cost(both) > cost(w) + cost(other)) continue;
             other = both;
             entered = true;
@@ -113,13 +109,13 @@ std::vector<Window> gathered(const std::vector<Window>& windows, double rho) {
 /// Everything of M's region outside K has another winding number about one than about the other.
 std::vector<Window> windows_of(const CoverProblem& problem, const std::vector<Edge>& moved, double rho) {
     std::optional<std::vector<Window>> windows = windows_of_change(problem.vertices, moved, problem.region, rho);
-    if (!windows && problem.material.empty() && problem.pieces.empty()) return {};
-    if (!windows) return {window_of_m(problem)};
-    for (const Stadium& piece : problem.pieces) {
-        Window box = empty_window;
-        for (const int end : {piece.a, piece.b}) grow_window(box, problem, end, piece.radius.approx + 1);
-        windows->push_back(box);
+    if (!windows) {
+        windows.emplace();
+        Window all = empty_window;
+        for (const Edge& e : problem.material) grow_window(all, problem, e.a, 1);
+        if (!problem.material.empty()) windows->push_back(all);
     }
+    for (const Stadium& piece : problem.pieces) windows->push_back(window_of(problem, piece));
     return gathered(*windows, rho);
 }
 

@@ -10,7 +10,7 @@ namespace ribvault::verify {
 
 namespace {
 
-constexpr int area_cells = 6000;
+constexpr int area_cells = 12000;
 
 Located mm_point(const CoverProblem& problem, const std::array<double, 2>& mm) {
     const double scale = static_cast<double>(units_per_mm);
