@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """How time and memory grow: with size, layers, triangles and threads. G-code and both proofs included, whole processes.
 
-Usage: experiments/scaling.py [--rounds 3] [--only SERIES] [--models FOLDER] [--json FILE]; scripts/benchmark --scaling builds first.
+Usage: experiments/scaling.py [--rounds 3] [--only SERIES] [--models FOLDER] [--json FILE]; scripts/benchmark scaling builds first.
 Exponents e of size^e are least squares over all rows of a series. Exit code 1 when a print is not proved.
 """
 import argparse
