@@ -6,7 +6,6 @@
 #include <map>
 
 #include "ribvault/print/segment_rows.hpp"
-#include "ribvault/slice/lattice_clip.hpp"
 
 namespace ribvault {
 namespace {
@@ -95,14 +94,8 @@ struct Axis {
     double length(Node a, Node b) const { return std::hypot(at[a].x - at[b].x, at[a].y - at[b].y); }
 };
 
-/// The area's edges without vertices within `tolerance` of the line through their neighbours, which offsets leave behind by
-/// the dozen and which the diagram's exact predicates would pay for. Dropping vertices may make edges cross, which the
-/// diagram does not allow: the union takes the crossings out again.
-std::vector<BoostSegment> border_of(const Region& region, Point origin, double tolerance) {
+std::vector<BoostSegment> border_of(const Region& area, Point origin) {
     std::vector<BoostSegment> border;
-    ClipperLib::Paths cleaned = to_clipper(region);
-    ClipperLib::CleanPolygons(cleaned, tolerance);
-    const Region area = clip(ClipperLib::ctUnion, from_clipper(cleaned), {});
     const auto local = [&](Point p) { return BoostPoint{static_cast<int>(p.x - origin.x), static_cast<int>(p.y - origin.y)}; };
     for (const Contour& c : area)
         for (std::size_t i = 0; i < c.size(); ++i)
@@ -192,9 +185,7 @@ std::vector<PlannedTrack> medial_tracks(const Region& area, Unit width, TrackKin
     if (area.empty()) return tracks;
     const Point origin = bounding_box(area).lo;
     const double d = static_cast<double>(width);
-    const std::vector<BoostSegment> border = border_of(area, origin, d / 200);
-    if (border.empty()) return tracks;
-    Axis axis = axis_of(border, d / 4, 3 * d / 4, d / 20);
+    Axis axis = axis_of(border_of(area, origin), d / 4, 3 * d / 4, d / 20);
     prune(axis, d);
 
     const auto emit = [&](const std::vector<Node>& chain) {
