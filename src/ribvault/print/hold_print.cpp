@@ -7,6 +7,7 @@
 #include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/exact/point_location.hpp"
 #include "ribvault/print/drop_tiny_steps.hpp"
+#include "ribvault/print/lay_patches.hpp"
 #include "ribvault/print/printed_tracks.hpp"
 #include "ribvault/print/support_paths.hpp"
 
@@ -14,13 +15,6 @@ namespace ribvault {
 namespace {
 
 constexpr int rounds = 6;  ///< of mending, each of which is followed by another look
-
-std::vector<Segment> segments_of(const LayerPlan& plan) {
-    std::vector<Segment> segments;
-    for (const PlannedTrack& track : plan.tracks)
-        for (const ToolPath& path : track.paths) append_segments(path, segments);
-    return segments;
-}
 
 double distance(const Segment& s, const Segment& t) {
     if (segments_touch(s, t)) return 0;
@@ -39,16 +33,16 @@ public:
     }
 
     HeldLayer run() {
-        lay_tracks();
+        lay_supports();
         if (!above_) return std::move(held_);
         held_.judgement.emplace(*above_, *held_.printed, settings_);
         std::vector<OpenStretch> hanging = open();
-        bool close = true;
         for (int round = 0; settings_.gaps != Gaps::paper && !hanging.empty() && round < rounds; ++round) {
-            close = close && close_gaps(hanging) > 0;
-            if (!close) patch(hanging);
+            if (!tracks_ && close_gaps(hanging) > 0)
+                lay_supports();
+            else
+                patch(hanging);
             held_.mended = true;
-            lay_tracks();
             held_.judgement->change_below(*held_.printed);
             hanging = open();
         }
@@ -57,14 +51,9 @@ public:
     }
 
 private:
-    void lay_tracks() {
+    void lay_supports() {
         held_.plan = shell_;
         append_support_paths(forest_, settings_, held_.plan);
-        for (const auto& [s, kind] : patches_) {
-            ToolPath path{kind, settings_.nozzle, false, {s.a}};
-            if (s.b != s.a) path.points.push_back(s.b);
-            held_.plan.tracks.push_back({{std::move(path)}, Entry::either_end, no_stop});
-        }
         drop_tiny_steps(held_.plan);
         held_.printed = std::make_shared<const PrintedLayer>(printed_layer(held_.plan));
     }
@@ -87,7 +76,8 @@ private:
 
     /// Branches whose gap may be what lets something hang reach their junction from now on. How many walls are new.
     int close_gaps(const std::vector<OpenStretch>& open) {
-        // What hangs lies within half a width of its stretch, and what would hold it within r + ρ of that.
+        // What hangs lies within half a width of its stretch. Walls whose centre line is farther than ρ from that could hold its rim only;
+        // closing their gaps too costs more than the patches that it saves.
         struct Place {
             Segment segment;
             double reach;
@@ -95,7 +85,7 @@ private:
         std::vector<Place> places;
         for (const OpenStretch& stretch : open) {
             const PrintedTrack& track = above_->tracks[stretch.track];
-            places.push_back({place_of(track, stretch), track.width.get_d() / 2 * units_per_mm + static_cast<double>(settings_.nozzle / 2 + settings_.support_radius + 4)});
+            places.push_back({place_of(track, stretch), track.width.get_d() / 2 * units_per_mm + static_cast<double>(settings_.support_radius + 4)});
         }
         int closed = 0;
         for (auto [e, end] = edges(forest_); e != end; ++e) {
@@ -123,8 +113,34 @@ private:
         return !apart(s.a.x, s.b.x, t.a.x, t.b.x) && !apart(s.a.y, s.b.y, t.a.y, t.b.y);
     }
 
+    /// Puts patches under what hangs and lays them with the tracks that are there. From now on those stay as they are.
     void patch(const std::vector<OpenStretch>& open) {
-        const NearestSegment material(segments_of(held_.plan));
+        if (!tracks_) {
+            without_patches_ = std::move(held_.plan);
+            tracks_.emplace(without_patches_);
+        }
+        add_patches(open);
+        held_.plan = without_patches_;
+        held_.patch_length = lay_patches(patches_, *tracks_, held_.plan, settings_.nozzle);
+        held_.printed = std::make_shared<const PrintedLayer>(printed_layer(held_.plan));
+    }
+
+    /// The point of the tracks and of the patches so far that is nearest to p; p itself where there are none.
+    Point nearest_material(Point p, std::size_t patches) const {
+        Point nearest = p;
+        double least = HUGE_VAL;
+        if (const NearestSegment& tracks = tracks_->segments(); !tracks.empty()) {
+            const NearestSegment::Hit hit = tracks.nearest(p);
+            nearest = nearest_point(p, tracks.segments()[hit.index]), least = hit.distance.value();
+        }
+        for (std::size_t k = 0; k < patches; ++k)
+            if (const double d = squared_distance(p, patches_[k].segment).value(); d < least)
+                nearest = nearest_point(p, patches_[k].segment), least = d;
+        return nearest;
+    }
+
+    void add_patches(const std::vector<OpenStretch>& open) {
+        const std::size_t before = patches_.size();
         std::vector<Segment> loops;
         for (const PlannedTrack& track : shell_.tracks)
             for (const ToolPath& path : track.paths)
@@ -132,14 +148,12 @@ private:
         const PointLocation outline(loops, units_per_mm / 2);
         const Unit step = settings_.support_radius - 2;
         const auto move = [&](Point p) {
-            if (material.empty()) return p;
-            const Point near = nearest_point(p, material.segments()[material.nearest(p).index]);
+            const Point near = nearest_material(p, before);
             const double d = length(near - p);
             if (d <= static_cast<double>(step)) return near;
             const double t = static_cast<double>(step) / d;
             return Point{p.x + round_to_lattice(t * static_cast<double>(near.x - p.x)), p.y + round_to_lattice(t * static_cast<double>(near.y - p.y))};
         };
-        const std::size_t before = patches_.size();
         for (const OpenStretch& stretch : open) {
             const Segment hanging = place_of(above_->tracks[stretch.track], stretch);
             const bool held = std::any_of(patches_.begin() + static_cast<std::ptrdiff_t>(before), patches_.end(), [&](const Patch& patch) {
@@ -179,7 +193,6 @@ private:
             }
             patches_.push_back({s, kind});
             ++held_.patches;
-            held_.patch_length += round_to_lattice(length(s));
         }
     }
 
@@ -211,7 +224,6 @@ private:
             if (k > 0) patches_.push_back({{at[k - 1], at[k]}, TrackKind::support});
         }
         held_.patches += static_cast<int>(pieces);
-        for (std::size_t k = before; k < patches_.size(); ++k) held_.patch_length += round_to_lattice(length(patches_[k].segment));
         return true;
     }
 
@@ -235,12 +247,10 @@ private:
     const PrintedLayer* above_;
     const Settings& settings_;
     HeldLayer held_;
-    struct Patch {
-        Segment segment;
-        TrackKind kind;
-    };
     const Cavity* beside_;
     std::optional<GapPlaces> gap_places_;
+    LayerPlan without_patches_;         ///< once there are patches
+    std::optional<PlanTracks> tracks_;  ///< of it
     std::vector<Patch> patches_;
     std::vector<Point> tried_;
 };

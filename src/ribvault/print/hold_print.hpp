@@ -22,7 +22,7 @@ struct HeldLayer {
     bool mended = false;        ///< something was changed after the whole layer above had been looked at
     int closed_gaps = 0;        ///< branches printed up to their junction because the gap would have let something hang
     int patches = 0;            ///< short tracks added where closing gaps was not enough
-    Unit patch_length = 0;      ///< lattice units
+    Unit patch_length = 0;      ///< length of track that patches add, lattice units; dots count as none
     std::vector<Segment> patch_tracks;  ///< their centre lines; dots as segments of no length
 };
 
@@ -34,7 +34,8 @@ struct HeldLayer {
 /// branches nearby are printed up to their junction (settings.gaps == Gaps::proved; with Gaps::paper nothing is done and the
 /// verdict will say what the gaps cost, with Gaps::none there are none from the start). Where that is not enough (where the
 /// tracks of the shell leave a place open that B_i has), patches follow: what hangs, one layer lower, each end moved by up to
-/// ρ towards material, so that what the patches need below them shrinks to nothing like a wall's tip does.
+/// ρ towards material, so that what the patches need below them shrinks to nothing like a wall's tip does. They are printed with the
+/// tracks they touch (print/lay_patches.hpp).
 /// Patches lie inside the outline. Deterministic.
 ///
 /// With external supports (settings.outside()) all of `above` counts, inside the outline or not, and patches may lie

@@ -8,7 +8,7 @@ namespace ribvault {
 
 /// A track that is printed without a stop: one path, or, where the width varies, several that follow each other end to end.
 struct PlannedTrack {
-    std::vector<ToolPath> paths;      ///< at least one; all of one kind
+    std::vector<ToolPath> paths;      ///< at least one; all of one stage (print/order_paths.hpp)
     Entry entry = Entry::fixed;       ///< where the nozzle may enter it
     std::size_t after = no_stop;      ///< the track of the plan, of the same stage, that must be printed earlier
 };
