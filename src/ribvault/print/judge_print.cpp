@@ -76,7 +76,6 @@ PrintJudgement::PrintJudgement(const PrintedLayer& above, const PrintedLayer& be
     if (!settings.outside()) outside_ = stretches_outside(above, below);
     lower_ = material_below();
     supported_.assign(above.tracks.size(), 1);
-    unsupported_length_.assign(above.tracks.size(), {0, 0});
     std::vector<std::size_t> all(above.tracks.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     look(all, lower_);
@@ -113,16 +112,13 @@ std::vector<PrintedTrack> PrintJudgement::material_below() const {
 /// Judges these tracks above (indices, increasing) anew over `lower`, which has all that comes near them.
 void PrintJudgement::look(const std::vector<std::size_t>& which, std::vector<PrintedTrack> lower) {
     PrintedOptions options;
-    options.regions = false, options.stretches = true;
+    options.regions = options.lengths = false, options.stretches = true;
     PrintedLayer upper, below;
     upper.tracks = chosen(above_->tracks, which), below.tracks = std::move(lower);
     const PrintedVerdict verdict = verify_printed(upper, below, printed_length(settings_->support_radius), options);
     stages_ += verdict.stages;
     std::erase_if(open_, [&](const OpenStretch& s) { return std::binary_search(which.begin(), which.end(), s.track); });
-    for (std::size_t k = 0; k < which.size(); ++k) {
-        supported_[which[k]] = verdict.track_supported[k];
-        unsupported_length_[which[k]] = verdict.unsupported_length[k];
-    }
+    for (std::size_t k = 0; k < which.size(); ++k) supported_[which[k]] = verdict.track_supported[k];
     for (const OpenStretch& stretch : verdict.stretches) open_.push_back({which[stretch.track], stretch.from_mm, stretch.to_mm});
     std::stable_sort(open_.begin(), open_.end(), [](const OpenStretch& a, const OpenStretch& b) { return a.track < b.track; });
 }
@@ -130,8 +126,17 @@ void PrintJudgement::look(const std::vector<std::size_t>& which, std::vector<Pri
 PrintVerdict PrintJudgement::verdict() const {
     PrintVerdict verdict;
     verdict.supported = std::all_of(supported_.begin(), supported_.end(), [](char yes) { return yes != 0; });
-    verdict.unsupported_mm = sum(unsupported_length_);
     verdict.stages = stages_;
+    if (!verdict.supported) {
+        std::vector<std::size_t> hanging;
+        for (std::size_t k = 0; k < supported_.size(); ++k)
+            if (!supported_[k]) hanging.push_back(k);
+        PrintedOptions options;
+        options.areas = options.regions = false;
+        PrintedLayer upper, lower;
+        upper.tracks = chosen(above_->tracks, hanging), lower.tracks = lower_;
+        verdict.unsupported_mm = sum(verify_printed(upper, lower, printed_length(settings_->support_radius), options).unsupported_length);
+    }
     if (!open_.empty()) {
         const Segment place = place_of(above_->tracks[open_.front().track], open_.front());
         verdict.place = {to_mm((place.a.x + place.b.x) / 2), to_mm((place.a.y + place.b.y) / 2)};

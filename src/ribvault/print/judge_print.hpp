@@ -41,7 +41,6 @@ private:
     std::vector<PrintedTrack> outside_;  ///< of `above`, outside the outline; counts as held up
     std::vector<PrintedTrack> lower_;    ///< everything that holds `above` up
     std::vector<char> supported_;        ///< by track above
-    std::vector<std::array<double, 2>> unsupported_length_;
     std::vector<OpenStretch> open_;
     StageCounts stages_;
 };

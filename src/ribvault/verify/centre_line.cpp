@@ -40,7 +40,7 @@ public:
           margin_(margin),
           in_doubles_(prepared.inverse_norm > 0 && prepared.length > 64 * margin) {}
 
-    std::vector<CentreGap> gaps(StageCounts& stages);
+    std::vector<CentreGap> gaps(bool exact_ends, StageCounts& stages);
 
 private:
     const QuadraticNumber& exact(End& e) {
@@ -64,6 +64,9 @@ private:
     }
     bool covered_by(int i, Covered& covered);
     bool certainly_apart(const FrameStadium& f) const;
+    CentreGap gap_between(End& from, End& to, bool exact_ends);
+    std::optional<std::vector<CentreGap>> gaps_in_doubles(std::vector<Covered>& all, End& begin, End& end, bool exact_ends);
+    std::vector<CentreGap> gaps_in_order(std::vector<Covered>& all, End& begin, End& end, bool exact_ends);
 
     const PrintedTrack& track_;
     const PreparedTrack& prepared_;
@@ -114,26 +117,85 @@ bool Line::covered_by(int i, Covered& covered) {
     return true;
 }
 
-std::vector<CentreGap> Line::gaps(StageCounts& stages) {
-    std::vector<Covered> all;
-    Covered covered;
-    for (std::size_t i = 0; i < below_.which.size(); ++i)
-        if (covered_by(static_cast<int>(i), covered)) all.push_back(covered);
+CentreGap Line::gap_between(End& from, End& to, bool exact_ends) {
+    if (in_doubles_ && !exact_ends) return {{}, {}, from.lo, from.hi, to.lo, to.hi};
+    CentreGap gap{exact(from), exact(to)};
+    const std::array<Rational, 2> begin = enclose(gap.from, 60), end = enclose(gap.to, 60);
+    gap.from_lo = begin[0].get_d() * prepared_.length, gap.from_hi = begin[1].get_d() * prepared_.length;
+    gap.to_lo = end[0].get_d() * prepared_.length, gap.to_hi = end[1].get_d() * prepared_.length;
+    return gap;
+}
+
+/// How far the line is covered: the farthest of ends that doubles do not tell apart. Tracks below that follow each other share a disc,
+/// in which their stretches end at the same point: seldom matters which one it is.
+struct Reached {
+    double lo, hi;
+    std::vector<End*> ends;
+
+    explicit Reached(End& end) : lo(end.lo), hi(end.hi), ends{&end} {}
+    void extend(End& to) {
+        if (to.hi < lo) return;
+        if (to.lo > hi) ends.clear();
+        ends.push_back(&to);
+        lo = std::max(lo, to.lo), hi = std::max(hi, to.hi);
+    }
+};
+
+// By increasing lower bounds of where they begin: when one certainly begins beyond what is covered so far, so do all after it.
+// Nothing when doubles do not decide.
+std::optional<std::vector<CentreGap>> Line::gaps_in_doubles(std::vector<Covered>& all, End& begin, End& end, bool exact_ends) {
+    std::sort(all.begin(), all.end(), [](const Covered& p, const Covered& q) { return p.from.lo < q.from.lo; });
+    std::vector<CentreGap> found;
+    Reached reached(begin);
+    const auto farthest = [&]() -> End& {
+        End* most = reached.ends.front();
+        if (exact_ends)
+            for (End* e : reached.ends)
+                if (e != most && compare(exact(*e), exact(*most)) > 0) most = e;
+        return *most;
+    };
+    for (Covered& c : all) {
+        if (c.from.lo > end.hi) break;
+        if (c.from.hi >= end.lo) return std::nullopt;
+        if (c.from.lo > reached.hi)
+            found.push_back(gap_between(farthest(), c.from, exact_ends));
+        else if (c.from.hi >= reached.lo)
+            return std::nullopt;
+        reached.extend(c.to);
+    }
+    if (reached.lo > end.hi) return found;
+    if (reached.hi >= end.lo) return std::nullopt;
+    found.push_back(gap_between(farthest(), end, exact_ends));
+    return found;
+}
+
+std::vector<CentreGap> Line::gaps_in_order(std::vector<Covered>& all, End& begin, End& end, bool exact_ends) {
     std::sort(all.begin(), all.end(), [&](Covered& p, Covered& q) { return order(p.from, q.from) < 0; });
-    End begin, end;
-    begin.exact = QuadraticNumber{0, 0, 0}, end.exact = QuadraticNumber{1, 0, 0};
-    end.side = 1;
-    if (in_doubles_) begin.lo = begin.hi = 0, end.lo = prepared_.length - margin_, end.hi = prepared_.length + margin_;
     std::vector<CentreGap> found;
     End reached = begin;
     for (Covered& c : all) {
         if (order(c.from, end) >= 0) break;
-        if (order(c.from, reached) > 0) found.push_back({exact(reached), exact(c.from)});
+        if (order(c.from, reached) > 0) found.push_back(gap_between(reached, c.from, exact_ends));
         if (order(c.to, reached) > 0) reached = c.to;
     }
-    if (order(reached, end) < 0) found.push_back({exact(reached), exact(end)});
-    ++(algebraic_ ? stages.algebraic : exactly_ ? stages.rational : stages.interval);
+    if (order(reached, end) < 0) found.push_back(gap_between(reached, end, exact_ends));
     return found;
+}
+
+std::vector<CentreGap> Line::gaps(bool exact_ends, StageCounts& stages) {
+    std::vector<Covered> all;
+    Covered covered;
+    for (std::size_t i = 0; i < below_.which.size(); ++i)
+        if (covered_by(static_cast<int>(i), covered)) all.push_back(covered);
+    End begin, end;
+    begin.exact = QuadraticNumber{0, 0, 0}, end.exact = QuadraticNumber{1, 0, 0};
+    end.side = 1;
+    if (in_doubles_) begin.lo = begin.hi = 0, end.lo = prepared_.length - margin_, end.hi = prepared_.length + margin_;
+    std::optional<std::vector<CentreGap>> found;
+    if (in_doubles_) found = gaps_in_doubles(all, begin, end, exact_ends);
+    if (!found) found = gaps_in_order(all, begin, end, exact_ends);
+    ++(algebraic_ ? stages.algebraic : exactly_ ? stages.rational : stages.interval);
+    return *std::move(found);
 }
 
 bool dot_covered(const PrintedTrack& dot, const PreparedTrack& prepared, const Below& below, double margin,
@@ -197,8 +259,8 @@ std::optional<std::array<QuadraticNumber, 2>> exact_stretch(const PrintedTrack& 
 }
 
 std::vector<CentreGap> centre_gaps(const PrintedTrack& track, const PreparedTrack& prepared, const Below& below,
-                                   double margin, StageCounts& stages) {
-    if (track.a != track.b) return Line(track, prepared, below, margin).gaps(stages);
+                                   double margin, bool exact_ends, StageCounts& stages) {
+    if (track.a != track.b) return Line(track, prepared, below, margin).gaps(exact_ends, stages);
     if (dot_covered(track, prepared, below, margin, stages)) return {};
     return {{{0, 0, 0}, {0, 0, 0}}};
 }

@@ -37,6 +37,7 @@ public:
 private:
     bool follows_one();
     bool wanted() const { return options_.regions || options_.stretches; }  ///< all of what is open
+    bool exact_ends() const { return options_.lengths || options_.regions; }
     void report_gap(const CentreGap& gap);
     std::vector<OpenPart> parts_of(const std::vector<Stretch>& gaps, const std::vector<CentreGap>& centre) const;
     bool uncovered(OpenPart& part);
@@ -80,7 +81,6 @@ bool Judge::follows_one() {
 }
 
 void Judge::report_gap(const CentreGap& gap) {
-    verdict_.centre_lines_supported = false;
     const PrintedTrack& exact = pair_.upper[track_];
     const PreparedTrack& t = pair_.above[track_];
     UnsupportedPiece piece;
@@ -126,8 +126,7 @@ std::vector<OpenPart> Judge::parts_of(const std::vector<Stretch>& gaps, const st
             part.track = static_cast<int>(track_);
             part.stretch = {gap.lo + i * step - pair_.margin, gap.lo + (i + 1) * step + pair_.margin};
             for (const CentreGap& c : centre) {
-                const double from = enclose(c.from, 60)[1].get_d() * t.length + pair_.margin;
-                const double to = enclose(c.to, 60)[0].get_d() * t.length - pair_.margin;
+                const double from = c.from_hi + pair_.margin, to = c.to_lo - pair_.margin;
                 if (std::max(from, part.stretch.lo) < std::min(to, part.stretch.hi)) part.gap = c;
             }
             parts.push_back(std::move(part));
@@ -193,8 +192,10 @@ void Judge::judge(int index) {
         return;
     }
     const Below below{pair_.lower, pair_.below, pair_.radii, near_, seen_};
-    const std::vector<CentreGap> centre = centre_gaps(pair_.upper[track_], t, below, pair_.margin, verdict_.stages);
-    for (const CentreGap& gap : centre) report_gap(gap);
+    const std::vector<CentreGap> centre = centre_gaps(pair_.upper[track_], t, below, pair_.margin, exact_ends(), verdict_.stages);
+    if (!centre.empty()) verdict_.centre_lines_supported = false;
+    if (options_.lengths)
+        for (const CentreGap& gap : centre) report_gap(gap);
     if (!options_.areas) {
         if (!centre.empty()) verdict_.supported = false, verdict_.track_supported[track_] = 0;
         return;
@@ -205,8 +206,7 @@ void Judge::judge(int index) {
         for (const CentreGap& c : centre) {
             const bool known =
                 std::any_of(parts.begin(), parts.end(), [&](const OpenPart& p) { return p.gap.has_value(); });
-            const double from = enclose(c.from, 60)[0].get_d() * t.length, to = enclose(c.to, 60)[1].get_d() * t.length;
-            if (!known) parts.push_back({index, {from - slack, to + slack}, c, {}, {}});
+            if (!known) parts.push_back({index, {c.from_lo - slack, c.to_hi + slack}, c, {}, {}});
         }
     if (violates(std::move(parts), !centre.empty())) verdict_.supported = false, verdict_.track_supported[track_] = 0;
 }

@@ -47,8 +47,9 @@ struct PrintedVerdict {
                                          ///< below. Exact
     bool supported = true;               ///< (2): every point of every judged stadium is. Exact; implies (1)
     std::vector<std::array<double, 2>> unsupported_length;  ///< per track above: enclosure [lo, hi], mm, of the length
-                                                            ///< of centre line that violates (1); {0, 0}: none
-    std::vector<UnsupportedPiece> pieces;                   ///< in the order of the tracks, then along each
+                                                            ///< of centre line that violates (1); {0, 0}: none,
+                                                            ///< or not asked for
+    std::vector<UnsupportedPiece> pieces;                   ///< in the order of the tracks, then along each; the same
     std::vector<char> track_supported;       ///< per track above: 1 when its stadium satisfies (2) or is not judged
     std::vector<UnsupportedRegion> regions;  ///< empty when supported, or not asked for
     std::vector<OpenStretch> stretches;      ///< empty when supported, or not asked for
@@ -58,6 +59,7 @@ struct PrintedVerdict {
 struct PrintedOptions {
     std::vector<char> judged;  ///< per track above; 0: not judged, not material above either. Empty: all are
     bool areas = true;         ///< decide (2) at all; else `supported` is that of (1)
+    bool lengths = true;       ///< measure what violates (1): unsupported_length and pieces
     bool regions = true;       ///< describe what violates (2)
     bool stretches = false;    ///< where (2) is violated, without a description
     int distance_cells = 300;  ///< effort of a region's greatest distance: about so many cells
