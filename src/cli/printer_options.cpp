@@ -64,6 +64,7 @@ void add_tracks(CLI::App* command, TrackSettings& t) {
             std::map<std::string, Seam>{{"aligned", Seam::aligned}, {"corner", Seam::corner}, {"nearest", Seam::nearest}}))->type_name("WHERE");
     group->add_flag_callback("--no-thin-walls", [&t] { t.thin_walls = false; }, "no tracks where the slice is narrower than one");
     group->add_flag_function("--no-fill-gaps", [&t](std::int64_t) { t.fill_gaps = false; }, "no tracks in strips of the shell that are too narrow for covers");
+    add_length(group, "--resolution", t.resolution, "tool paths follow slices within this (default 0.005; 0: every vertex)");
     add_length(group, "--first-layer-width", t.first_layer_width, "of perimeters and covers on layer 0 (default: the nozzle)");
     group->add_option("--skirt", t.skirt_loops, "loops around the first layer (default 0)");
     add_length(group, "--skirt-distance", t.skirt_distance, "from the object to the skirt (default 3)");

@@ -13,7 +13,7 @@ using namespace ribvault::test;
 namespace {
 
 constexpr Unit mm = units_per_mm;
-constexpr double rounding = 2;  // lattice units
+constexpr double clipper = 2;  // lattice units
 
 Contour rectangle(Unit x0, Unit y0, Unit x1, Unit y1, bool hole = false) {
     Contour c{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
@@ -49,7 +49,8 @@ LayerPaths shell_paths(const Region& outline, const Region& cavity, const Settin
 }
 
 /// Every postcondition of append_shell_paths.
-void check_shell(const Region& outline, const Region& cavity, const Settings& settings, const LayerPaths& layer) {
+void check_shell(const Region& outline, const Region& cavity, const Settings& settings, const LayerPaths& layer, Unit resolution) {
+    const double rounding = clipper + static_cast<double>(resolution);
     const auto d = static_cast<double>(settings.nozzle);
     const std::vector<Segment> border = segments(outline), inner = segments(cavity);
     bool covers_began = false;
@@ -109,11 +110,13 @@ TEST_CASE("random slices with holes and cavities: tracks keep their distances") 
         Region outline{star(random, {0, 0}, corners, 8, 10), star(random, {2 * mm, mm}, 9 + round, 1, 2, true)};
         Region cavity;
         if (round % 4 != 0) cavity.push_back(star(random, {-4 * mm, 0}, 40, 1, 2.5));
-        const LayerPaths layer = shell_paths(outline, cavity, settings, round);
-        check_shell(outline, cavity, settings, layer);
+        TrackSettings tracks;
+        if (round % 2 == 0) tracks.resolution = 0;
+        const LayerPaths layer = shell_paths(outline, cavity, settings, round, tracks);
+        check_shell(outline, cavity, settings, layer, tracks.resolution);
         CHECK(std::any_of(layer.paths.begin(), layer.paths.end(),
                           [](const ToolPath& p) { return p.kind == TrackKind::cover; }));
-        const LayerPaths again = shell_paths(outline, cavity, settings, round);
+        const LayerPaths again = shell_paths(outline, cavity, settings, round, tracks);
         CHECK(std::equal(layer.paths.begin(), layer.paths.end(), again.paths.begin(), again.paths.end(),
                          [](const ToolPath& a, const ToolPath& b) { return a.points == b.points; }));
     }
@@ -124,7 +127,7 @@ TEST_CASE("a full square is covered by one zigzag, d apart, at 45 degrees on eve
     const Settings settings;
     for (int number : {0, 1, 2, 7}) {
         const LayerPaths layer = shell_paths(outline, {}, settings, number);
-        check_shell(outline, {}, settings, layer);
+        check_shell(outline, {}, settings, layer, TrackSettings().resolution);
         REQUIRE(layer.paths.size() == 2);
         const ToolPath& cover = layer.paths[1];
         double along = 0;
@@ -174,7 +177,7 @@ TEST_CASE("covers around a cavity link along curved borders") {
         cavity[0].push_back({round_to_lattice(5 * mm * std::cos(a)), round_to_lattice(5 * mm * std::sin(a))});
     }
     const LayerPaths layer = shell_paths(outline, cavity, Settings{});
-    check_shell(outline, cavity, Settings{}, layer);
+    check_shell(outline, cavity, Settings{}, layer, TrackSettings().resolution);
     // 72 pieces of lines; only where the border runs nearly along them is the way to the next longer than 2 d.
     CHECK(layer.paths.size() < 20);
 }
@@ -342,11 +345,11 @@ TEST_CASE("concentric covers follow the border, d apart, and leave no middle unf
         LayerPaths perimeters = layer;
         std::erase_if(perimeters.paths, [](const ToolPath& p) { return p.kind == TrackKind::cover; });
         return perimeters;
-    }());
+    }(), tracks.resolution);
     double material = 0;
     for (const ToolPath& path : layer.paths) {
         material += length(path) * static_cast<double>(path.width);
-        if (path.kind == TrackKind::cover && path.closed) CHECK(distance(segments(path), segments(outline)) >= 60000 - rounding);
+        if (path.kind == TrackKind::cover && path.closed) CHECK(distance(segments(path), segments(outline)) >= 60000 - clipper);
     }
     CHECK(material > 0.95 * mm * mm * 100);
     CHECK(material < 1.01 * mm * mm * 100);

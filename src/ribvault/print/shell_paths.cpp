@@ -4,6 +4,7 @@
 
 #include "ribvault/print/cover_lines.hpp"
 #include "ribvault/print/medial_tracks.hpp"
+#include "ribvault/print/simplify.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
 
 namespace ribvault {
@@ -153,9 +154,9 @@ void append_covers(const Region& area, Unit w, bool falling, CoverPattern patter
 
 }  // namespace
 
-void append_shell_paths(const Slice& slice, const Region& cavity, const Settings& settings, const TrackSettings& tracks, LayerPlan& plan) {
+void append_shell_paths(const Slice& slice, const Region& exact_cavity, const Settings& settings, const TrackSettings& tracks, LayerPlan& plan) {
     const Unit w = tracks.width_on(slice.layer, settings.nozzle);
-    const Region& outline = slice.rounded;
+    const Region outline = simplify(slice.rounded, tracks.resolution), cavity = simplify(exact_cavity, tracks.resolution);
     const Region outermost = mitred(outline, -static_cast<double>(w) / 2);
     append_perimeters(outermost, w, settings, tracks, outline, plan);
     append_thin_walls(outline, outermost, w, tracks.thin_walls, plan);

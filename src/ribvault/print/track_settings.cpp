@@ -13,6 +13,7 @@ void TrackSettings::check(Unit nozzle) const {
                                               std::to_string(lo) + " and " + std::to_string(hi));
     };
     if (first_layer_width != 0) refuse("--first-layer-width (mm)", to_mm(first_layer_width), to_mm(nozzle), 2 * to_mm(nozzle));
+    refuse("--resolution (mm)", to_mm(resolution), 0, to_mm(nozzle) / 4);
     refuse("--skirt (loops)", skirt_loops, 0, 100);
     refuse("--skirt-distance (mm)", to_mm(skirt_distance), 0, 1000);
     refuse("--brim (mm)", to_mm(brim_width), 0, 1000);

@@ -78,6 +78,7 @@ Json tracks(const TrackSettings& t, const Settings& s) {
             {"seam", seams[static_cast<std::size_t>(t.seam)]},
             {"thin_walls", t.thin_walls},
             {"fill_gaps", t.fill_gaps},
+            {"resolution_mm", to_mm(t.resolution)},
             {"first_layer_width_mm", to_mm(t.width_on(0, s.nozzle))},
             {"skirt_loops", t.skirt_loops},
             {"skirt_distance_mm", to_mm(t.skirt_distance)},
