@@ -50,7 +50,7 @@ public:
             step["wall"] = json_of(nearest_point(p, walls.segments()[wall.index]));
             step["wall_distance"] = rounded(wall.distance);
         }
-        growing_.add_wall(p);
+        growing_.add_wall(p, settings_.branch_bonus ? settings_.branch_bonus_length : 0);
         const std::size_t joint = growing_.new_walls().back().joint;
         const SupportForest after = forest();
         const bool is_new = joint >= num_vertices(before);

@@ -32,6 +32,7 @@ void choose_strategy(const std::string& name, Settings& s) {
     s.propagation = thrifty ? Propagation::shrink : Propagation::erode_straighten;
     s.order = thrifty ? Order::doubling : Order::distance;
     s.trim = thrifty;
+    s.narrow_bonus = thrifty;
 }
 
 void add_geometry(CLI::App* command, Written& w) {
@@ -71,6 +72,7 @@ void add_geometry(CLI::App* command, Written& w) {
         ->check(CLI::IsMember({"proved", "paper", "none"}))->type_name("NAME");
     supports->add_flag_function("--no-shrink", [&s](std::int64_t) { s.propagation = Propagation::erode_straighten; }, "thrifty without its descent of length");
     supports->add_flag_function("--no-trim", [&s](std::int64_t) { s.trim = false; }, "thrifty without trimming new walls");
+    supports->add_flag_function("--no-narrow-bonus", [&s](std::int64_t) { s.narrow_bonus = false; }, "thrifty with the whole bonus of equation (4) everywhere");
     supports->add_flag_function("--no-doubling", [&s](std::int64_t) { s.order = Order::distance; }, "thrifty with the paper's order of points");
     add_length(supports, "--erosion-step", w.erosion_step, "what a free tip loses per layer (default: rho)");
     supports->add_flag("--no-straighten", w.no_straighten, "leave out the straightening operator");

@@ -59,6 +59,7 @@ struct Settings {
     Unit straighten_step = 20000;  ///< how far a vertex moves per layer
     bool branch_bonus = true;      ///< equation (4)
     Unit branch_bonus_length = 80000;  ///< 4r
+    bool narrow_bonus = false;  ///< half of it where what is unsupported is narrow: no disc of radius 3/4 d has room in its piece
     int valence_limit = 4;             ///< the bonus counts for valence 1 .. valence_limit - 1
     std::uint64_t seed = 1;            ///< ties of Section 4.3
 

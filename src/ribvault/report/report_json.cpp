@@ -59,6 +59,7 @@ Json settings(const Settings& s) {
             {"straighten_step_mm", to_mm(s.straighten_step)},
             {"branch_bonus", s.branch_bonus},
             {"branch_bonus_length_mm", to_mm(s.branch_bonus_length)},
+            {"narrow_bonus", s.narrow_bonus},
             {"valence_limit", s.valence_limit},
             {"wall_lines", s.wall_lines},
             {"wall_lines_longer_mm", to_mm(s.wall_lines_longer)},

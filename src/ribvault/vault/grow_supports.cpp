@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <queue>
 
+#include "ribvault/exact/nearest_segment.hpp"
+#include "ribvault/exact/point_location.hpp"
+#include "ribvault/slice/lattice_clip.hpp"
 #include "ribvault/vault/growing_supports.hpp"
 #include "ribvault/vault/trim_walls.hpp"
 #include "ribvault/vault/unsupported_cells.hpp"
@@ -38,12 +41,25 @@ struct Later {
 };
 using Queue = std::priority_queue<Candidate, std::vector<Candidate>, Later>;
 
+/// The contours of those pieces of a region in which a disc of radius 3/4 d has room.
+std::vector<Segment> wide_pieces(const Region& region, Unit nozzle) {
+    std::vector<Segment> wide;
+    for (const Region& piece : connected_pieces(region)) {
+        if (offset(piece, -0.75 * static_cast<double>(nozzle)).empty()) continue;
+        const std::vector<Segment> border = edges_of(piece);
+        wide.insert(wide.end(), border.begin(), border.end());
+    }
+    return wide;
+}
+
 class Grower {
 public:
     Grower(SupportForest forest, const Region& unsupported, const CavityBoundary& boundary, std::uint64_t seed, const Settings& settings)
         : settings_(settings), boundary_(boundary), seed_(seed),
           radius_(static_cast<double>(settings.nozzle / 2 + settings.support_radius)), slack_(static_cast<double>(settings.slack)),
-          unsupported_(unsupported, settings), supports_(std::move(forest), boundary.location.box(), boundary, settings) {}
+          unsupported_(unsupported, settings), supports_(std::move(forest), boundary.location.box(), boundary, settings) {
+        if (settings.branch_bonus && settings.narrow_bonus) wide_ = PointLocation(wide_pieces(unsupported, settings.nozzle), units_per_mm);
+    }
 
     SupportForest run() {
         add_pixels();
@@ -58,6 +74,13 @@ public:
     }
 
 private:
+    /// Equation (4)'s bonus for a wall to p.
+    Unit bonus(Point p) const {
+        if (!settings_.branch_bonus) return 0;
+        const bool narrow = settings_.narrow_bonus && wide_.locate(p) == Side::outside;
+        return narrow ? settings_.branch_bonus_length / 2 : settings_.branch_bonus_length;
+    }
+
     static double half_diagonal(const Box& box) { return UnsupportedCells::half_diagonal(box); }
 
     /// The first pass: the lattice's points, nearest to B_i first. Cells open only when their turn comes, and not at all
@@ -76,7 +99,7 @@ private:
             const Candidate candidate = queue.top();
             queue.pop();
             if (candidate.cell < 0) {
-                if (!supports_.covers(candidate.at, radius_)) supports_.add_wall(candidate.at);
+                if (!supports_.covers(candidate.at, radius_)) supports_.add_wall(candidate.at, bonus(candidate.at));
                 continue;
             }
             const UnsupportedCells::Cell& cell = cells[static_cast<std::size_t>(candidate.cell)];
@@ -124,7 +147,7 @@ private:
             if (queue.size() != before) again.push_back(k);
         }
         for (; !queue.empty(); queue.pop())
-            if (!supports_.covers(queue.top().at, radius_ - slack_)) supports_.add_wall(queue.top().at);
+            if (!supports_.covers(queue.top().at, radius_ - slack_)) supports_.add_wall(queue.top().at, bonus(queue.top().at));
         return again;
     }
 
@@ -133,6 +156,7 @@ private:
     std::uint64_t seed_;
     double radius_, slack_;
     UnsupportedCells unsupported_;
+    PointLocation wide_;  ///< where the bonus counts in full, with settings.narrow_bonus
     GrowingSupports supports_;
 };
 

@@ -153,7 +153,7 @@ void GrowingSupports::add_pillar(Point p) {
     }
 }
 
-void GrowingSupports::add_wall(Point at) {
+void GrowingSupports::add_wall(Point at, Unit bonus) {
     Point p = at;
     if (boundary_.outside) {
         const std::optional<Point> inside = place_inside(at);
@@ -171,7 +171,6 @@ void GrowingSupports::add_wall(Point at) {
     const double plain = std::sqrt(plain_distance.value());
 
     ++added_;
-    const Unit bonus = settings_.branch_bonus ? settings_.branch_bonus_length : 0;
     std::vector<std::pair<SquaredDistance, std::size_t>> junctions;
     if (bonus > 0)
         grid_.visit(around(p, plain + static_cast<double>(bonus)), [&](std::uint32_t w) {

@@ -18,13 +18,13 @@ public:
     /// Is p within `radius` (units, at most r + ρ) of a wall? Nothing is within a negative radius.
     bool covers(Point p, double radius) const;
 
-    /// Adds the wall that Section 4.3 gives to p: to the nearest point of B_i ∪ S_i under equation (4).
+    /// Adds the wall that Section 4.3 gives to p: to the nearest point of B_i ∪ S_i under equation (4) with this bonus.
     /// Precondition: p lies strictly inside the cavity. Postcondition: covers(p, 0) up to rounding.
     ///
     /// Outside, where a wall would take more track down to the bed than a pillar does, p gets a pillar: a cross of
     /// settings.pillar_length. There p may also lie between the object and the region that a removal gap leaves: the wall goes to
     /// the point of the region nearest to it.
-    void add_wall(Point p);
+    void add_wall(Point p, Unit bonus);
 
     /// A wall that add_wall added, from its new vertex to where it joined.
     struct NewWall {
