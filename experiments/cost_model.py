@@ -6,12 +6,11 @@ Usage: experiments/cost_model.py [--models FOLDER] [--program build/bin/ribvault
 The models of the README's table (experiments/measured.py) with default settings. Counts are the report's and the layers file's, so they do
 not depend on the machine. "Exactly" are decisions that machine numbers with error bounds left open: by rationals, by algebraic numbers.
 """
-import argparse
 import json
 import pathlib
 import tempfile
 
-from measured import MODELS, ROOT, find
+from measured import MODELS, arguments, find
 from measured import run as generate
 
 SIGNS = ("interval", "rational", "algebraic")
@@ -22,10 +21,7 @@ def decisions(layers, proof):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--models", type=pathlib.Path, help="folder with low_poly_bunny.stl, low_poly_moai.stl, kitten.off")
-    parser.add_argument("--program", default=str(ROOT / "build/bin/ribvault"))
-    chosen = parser.parse_args()
+    chosen = arguments(__doc__).parse_args()
     print("| model | bytes read | layers | slice vertices a layer | walls a layer | geometry: decisions a layer | of them exactly | print: decisions a layer | of them exactly | bytes of G-code |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     with tempfile.TemporaryDirectory() as scratch:

@@ -55,10 +55,16 @@ def find(name, models, folder):
     return models / name if models and (models / name).exists() else None
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def arguments(usage):
+    """The options of every command that runs over MODELS."""
+    parser = argparse.ArgumentParser(description=usage, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--models", type=pathlib.Path, help="folder with low_poly_bunny.stl, low_poly_moai.stl, kitten.off")
     parser.add_argument("--program", default=str(ROOT / "build/bin/ribvault"))
+    return parser
+
+
+def main():
+    parser = arguments(__doc__)
     parser.add_argument("--rounds", type=int, default=3)
     chosen = parser.parse_args()
     all_proved = True

@@ -22,8 +22,6 @@ NearestSegment segments_of(const LayerPlan& plan, std::vector<PlanTracks::Place>
     return NearestSegment(std::move(segments));
 }
 
-bool tiny(Point a, Point b) { return squared_length(b - a) < shortest_step * shortest_step; }
-
 class PatchLayer {
 public:
     PatchLayer(const PlanTracks& on, LayerPlan& plan, Unit width) : on_(on), plan_(plan), width_(width), dot_(std::numbers::pi / 4 * static_cast<double>(width)) {}
@@ -44,7 +42,7 @@ private:
 
     void lay(TrackKind kind, const Segment& s) {
         ToolPath path{kind, width_, false, {s.a}};
-        if (!tiny(s.a, s.b)) path.points.push_back(s.b), added_ += length(s);
+        if (!is_tiny_step(s.a, s.b)) path.points.push_back(s.b), added_ += length(s);
         plan_.tracks.push_back({{std::move(path)}, Entry::either_end, no_stop});
     }
 
@@ -59,9 +57,9 @@ private:
         if ((patch.kind == TrackKind::external_support) != (path.kind == TrackKind::external_support)) return false;
         Point from = nearest_point(dot, step);
         for (const Point end : {step.a, step.b})
-            if (tiny(from, end)) from = end;
+            if (is_tiny_step(from, end)) from = end;
         const double way = length(dot - from);
-        if (way > dot_ || tiny(dot, from)) return false;
+        if (way > dot_ || is_tiny_step(dot, from)) return false;
         if (!path.closed) {
             const bool last = p + 1 == track.paths.size() && k + 2 >= path.points.size() && from == step.b;
             const bool first = p == 0 && k == 0 && from == step.a && track.entry == Entry::either_end;
@@ -108,7 +106,7 @@ private:
             };
             for (const Spur& spur : spurs) {
                 // Two that leave close to each other leave at the same place.
-                const Point from = tiny(way.back(), spur.from) ? way.back() : spur.from;
+                const Point from = is_tiny_step(way.back(), spur.from) ? way.back() : spur.from;
                 go(from), go(spur.to), go(from);
             }
             if (way.size() > 1 && way.back() == points[k + 1]) way.pop_back();

@@ -64,7 +64,7 @@ private:
     }
     bool covered_by(int i, Covered& covered);
     bool certainly_apart(const FrameStadium& f) const;
-    CentreGap gap_between(End& from, End& to, bool exact_ends);
+    CentreGap gap_between(End from, End& to, bool exact_ends);
     std::optional<std::vector<CentreGap>> gaps_in_doubles(std::vector<Covered>& all, End& begin, End& end, bool exact_ends);
     std::vector<CentreGap> gaps_in_order(std::vector<Covered>& all, End& begin, End& end, bool exact_ends);
 
@@ -117,7 +117,7 @@ bool Line::covered_by(int i, Covered& covered) {
     return true;
 }
 
-CentreGap Line::gap_between(End& from, End& to, bool exact_ends) {
+CentreGap Line::gap_between(End from, End& to, bool exact_ends) {
     if (in_doubles_ && !exact_ends) return {{}, {}, from.lo, from.hi, to.lo, to.hi};
     CentreGap gap{exact(from), exact(to)};
     const std::array<Rational, 2> begin = enclose(gap.from, 60), end = enclose(gap.to, 60);
@@ -126,8 +126,8 @@ CentreGap Line::gap_between(End& from, End& to, bool exact_ends) {
     return gap;
 }
 
-/// How far the line is covered: the farthest of ends that doubles do not tell apart. Tracks below that follow each other share a disc,
-/// in which their stretches end at the same point: seldom matters which one it is.
+/// How far the line is covered: the farthest of ends that doubles do not tell apart, between lo and hi. Tracks below that follow each other
+/// share a disc, in which their stretches end at the same point: which of them it is seldom matters.
 struct Reached {
     double lo, hi;
     std::vector<End*> ends;
@@ -147,11 +147,11 @@ std::optional<std::vector<CentreGap>> Line::gaps_in_doubles(std::vector<Covered>
     std::sort(all.begin(), all.end(), [](const Covered& p, const Covered& q) { return p.from.lo < q.from.lo; });
     std::vector<CentreGap> found;
     Reached reached(begin);
-    const auto farthest = [&]() -> End& {
+    const auto farthest = [&] {
         End* most = reached.ends.front();
-        if (exact_ends)
-            for (End* e : reached.ends)
-                if (e != most && compare(exact(*e), exact(*most)) > 0) most = e;
+        if (!exact_ends) return End{.lo = reached.lo, .hi = reached.hi, .exact = {}};
+        for (End* e : reached.ends)
+            if (e != most && compare(exact(*e), exact(*most)) > 0) most = e;
         return *most;
     };
     for (Covered& c : all) {

@@ -1,0 +1,89 @@
+// Unsupported stretches of a centre line, with exact ends and without: the same stretches, their ends where they are said to be.
+#include "ribvault/verify/centre_line.hpp"
+
+#include <catch2/catch.hpp>
+#include <numeric>
+#include <random>
+
+using namespace ribvault;
+using namespace ribvault::verify;
+
+namespace {
+
+constexpr std::int64_t step = Millimetres::picometres_per_mm / 20;  // 50 µm: many ties
+
+struct Scene {
+    PrintedTrack track;
+    std::vector<PrintedTrack> lower;
+
+    std::vector<CentreGap> gaps(bool exact_ends) const {
+        const std::vector<PreparedTrack> above = prepare({&track, 1}), below = prepare(lower);
+        const double margin = margin_of(largest_coordinate(above, below, 0.2));
+        const TrackFrame frame(above[0]);
+        std::vector<Millimetres> radii;
+        std::vector<FrameStadium> seen;
+        for (std::size_t k = 0; k < lower.size(); ++k) {
+            radii.push_back(half_plus(lower[k].width, Millimetres::of_picometres(4 * step)));
+            seen.push_back(frame.see(below[k], below[k].half + 0.2));
+        }
+        std::vector<int> which(lower.size());
+        std::iota(which.begin(), which.end(), 0);
+        StageCounts stages;
+        return centre_gaps(track, above[0], {lower, below, radii, which, seen}, margin, exact_ends, stages);
+    }
+};
+
+/// A line over chains whose pieces share their ends, some of them twice, turned round and up to `apart` pm beside.
+Scene random_scene(std::mt19937_64& random, std::int64_t jitter, std::int64_t apart) {
+    const auto place = [&](std::int64_t lo, std::int64_t hi) {
+        return Millimetres::of_picometres(std::uniform_int_distribution<std::int64_t>(lo, hi)(random) * step +
+                                          std::uniform_int_distribution<std::int64_t>(-jitter, jitter)(random));
+    };
+    const auto beside = [&](const PrintedPoint& p) {
+        std::uniform_int_distribution<std::int64_t> shift(-apart, apart);
+        return PrintedPoint{Millimetres::of_picometres(p[0].picometres() + shift(random)), Millimetres::of_picometres(p[1].picometres() + shift(random))};
+    };
+    Scene scene;
+    scene.track.a = {place(0, 0), place(0, 0)}, scene.track.b = {place(60, 80), place(-10, 10)};
+    scene.track.width = Millimetres::of_picometres(8 * step);
+    for (int chain = 0; chain < 3; ++chain) {
+        PrintedPoint at{place(0, 80), place(-12, 12)};
+        for (int k = 0; k < 4; ++k) {
+            const PrintedPoint to{place(0, 80), place(-12, 12)};
+            scene.lower.push_back({at, to, scene.track.width});
+            if (k != 2) scene.lower.push_back({beside(to), beside(at), scene.track.width});
+            at = to;
+        }
+        scene.lower.push_back({at, at, scene.track.width});
+    }
+    if (random() % 2) std::shuffle(scene.lower.begin(), scene.lower.end(), random);
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("ends of unsupported stretches lie where the doubles say, asked for exactly or not") {
+    std::mt19937_64 random(5);
+    std::size_t found = 0;
+    for (int trial = 0; trial < 12000; ++trial) {
+        const Scene scene = random_scene(random, trial % 3 == 0 ? 0 : trial % 3 == 1 ? 1 : 1000, trial % 4 == 0 ? 0 : 4 + trial % 12);
+        const std::vector<CentreGap> exact = scene.gaps(true), about = scene.gaps(false);
+        REQUIRE(exact.size() == about.size());
+        found += exact.size();
+        const double length = prepare({&scene.track, 1})[0].length;
+        // What doubles call inside a distance is off by a few of their last places.
+        constexpr double rounding = 1e-13;
+        for (std::size_t k = 0; k < exact.size(); ++k) {
+            const double from = enclose(exact[k].from, 60)[0].get_d() * length, to = enclose(exact[k].to, 60)[0].get_d() * length;
+            CHECK(about[k].from_lo <= from + rounding);
+            CHECK(from <= about[k].from_hi + rounding);
+            CHECK(about[k].to_lo <= to + rounding);
+            CHECK(to <= about[k].to_hi + rounding);
+            CHECK(about[k].from_hi - about[k].from_lo < 1e-3);
+            CHECK(exact[k].from_lo <= from + rounding);
+            CHECK(to <= exact[k].to_hi + rounding);
+            CHECK(compare(exact[k].from, exact[k].to) < 0);
+        }
+    }
+    CHECK(found > 1000);
+}
