@@ -32,7 +32,7 @@ void choose_strategy(const std::string& name, Settings& s) {
     s.propagation = thrifty ? Propagation::shrink : Propagation::erode_straighten;
     s.order = thrifty ? Order::doubling : Order::distance;
     s.trim = thrifty;
-    s.narrow_bonus = thrifty;
+    s.narrow_bonus = s.choose_bonus = thrifty;
 }
 
 void add_geometry(CLI::App* command, Written& w) {
@@ -72,7 +72,11 @@ void add_geometry(CLI::App* command, Written& w) {
         ->check(CLI::IsMember({"proved", "paper", "none"}))->type_name("NAME");
     supports->add_flag_function("--no-shrink", [&s](std::int64_t) { s.propagation = Propagation::erode_straighten; }, "thrifty without its descent of length");
     supports->add_flag_function("--no-trim", [&s](std::int64_t) { s.trim = false; }, "thrifty without trimming new walls");
-    supports->add_flag_function("--no-narrow-bonus", [&s](std::int64_t) { s.narrow_bonus = false; }, "thrifty with the whole bonus of equation (4) everywhere");
+    supports->add_option_function<std::string>(
+        "--narrow-bonus", [&s](const std::string& name) { s.choose_bonus = name == "chosen", s.narrow_bonus = name != "whole"; },
+        "equation (4)'s bonus in narrow places: half, whole, or chosen: what takes less (default whole, thrifty: chosen)")
+        ->check(CLI::IsMember({"half", "whole", "chosen"}))->type_name("NAME");
+    supports->add_option("--tries", s.tries, "seeds to try; the one that takes the least is used (default 1)");
     supports->add_flag_function("--no-doubling", [&s](std::int64_t) { s.order = Order::distance; }, "thrifty with the paper's order of points");
     add_length(supports, "--erosion-step", w.erosion_step, "what a free tip loses per layer (default: rho)");
     supports->add_flag("--no-straighten", w.no_straighten, "leave out the straightening operator");
@@ -154,6 +158,11 @@ int run(Written& w) {
     w.job.stop = interrupted;
     w.job.warn = [&](const std::string& text) {
         if (!w.quiet) std::fprintf(stderr, "warning: %s\n", text.c_str());
+    };
+    Progress choosing(w.quiet, ", choosing");
+    w.job.choosing = [&](int done, int total) {
+        choosing(done, total);
+        if (done == total) choosing.clear();
     };
     const RunReport report = generate(w.job);
     if (!w.quiet) std::fputs(summary(report, w.job).c_str(), stdout);

@@ -26,6 +26,7 @@ void Settings::check() const {
     within(pillar_length, nozzle, 10000000, "--pillar-length");
     if (support_gap > 0 && support == Support::internal) refuse("--support-gap keeps external supports off the object; give it with --support external or both");
     if (pillars && support == Support::internal) refuse("--pillars is about external supports; give it with --support external or both");
+    if (tries < 1 || tries > 1000) refuse("--tries must lie between 1 and 1000");
     if (perimeters < 1 || perimeters > 100) refuse("--perimeters must lie between 1 and 100");
     if (top_layers < 0 || top_layers > 1000) refuse("--top-layers must lie between 0 and 1000");
     if (bottom_layers < 0 || bottom_layers > 1000) refuse("--bottom-layers must lie between 0 and 1000");

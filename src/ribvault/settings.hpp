@@ -60,6 +60,8 @@ struct Settings {
     bool branch_bonus = true;      ///< equation (4)
     Unit branch_bonus_length = 80000;  ///< 4r
     bool narrow_bonus = false;  ///< half of it where what is unsupported is narrow: no disc of radius 3/4 d has room in its piece
+    bool choose_bonus = false;  ///< narrow_bonus is as takes less track over all layers (pipeline/choose_supports.hpp)
+    int tries = 1;              ///< so many seeds from `seed` on are tried; the one that takes the least track is used
     int valence_limit = 4;             ///< the bonus counts for valence 1 .. valence_limit - 1
     std::uint64_t seed = 1;            ///< ties of Section 4.3
 
@@ -110,7 +112,7 @@ struct PrinterSettings {
     double travel_speed = 150;        ///< mm/s
     double retraction = 3;            ///< mm of filament
     double retraction_speed = 40;     ///< mm/s
-    double retract_over = 5;          ///< mm: a travel with at most so much open air under it does not retract
+    double retract_over = 30;         ///< mm: a travel with at most so much open air under it does not retract
     double longest_detour = 20;       ///< mm that a travel may be longer than straight to stay inside the shell
     double prime_surplus = 0.05;      ///< Section 5.1: share of the retraction pushed in addition before a support path
     double surplus_clearance = 1.0;   ///< mm: no surplus when a support path starts nearer to a perimeter

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <random>
+#include <set>
 
 #include "ribvault/error.hpp"
 
@@ -221,4 +222,41 @@ TEST_CASE("the paper's models are proved, their shells as an independent library
             CHECK(report.verdict.proved);
             CHECK(report.totals.shell_volume_mm3 == Approx(model.shell[k]).epsilon(0.001));
         }
+}
+
+TEST_CASE("of the ways to grow supports the run uses the one that takes the least track") {
+    const Folder folder;
+    std::mt19937_64 random(5);
+    Job job;
+    job.model = folder.file("solid.off", random_solid(random));
+    job.threads = 2;
+    job.settings.branch_bonus_length = 160000;
+    const auto run = [&](bool narrow, std::uint64_t seed) {
+        Job one = job;
+        one.settings.narrow_bonus = narrow, one.settings.seed = seed;
+        const RunReport report = generate(one);
+        CHECK(report.candidates.empty());
+        return report;
+    };
+    Job open = job;
+    open.settings.choose_bonus = true, open.settings.tries = 3, open.settings.seed = 7;
+    int steps = 0;
+    open.choosing = [&](int done, int total) {
+        CHECK(done == ++steps);
+        CHECK(done <= total);
+    };
+    const RunReport chosen = generate(open);
+    CHECK(steps == static_cast<int>(chosen.layers.size()));
+    REQUIRE(chosen.candidates.size() == 6);
+    std::set<double> lengths;
+    for (const Candidate& c : chosen.candidates) {
+        CHECK(c.length_mm == Approx(run(c.narrow_bonus, c.seed).totals.support_length_mm));
+        CHECK(c.length_mm >= chosen.candidates.front().length_mm);
+        lengths.insert(c.length_mm);
+    }
+    CHECK(lengths.size() > 2);
+    CHECK(chosen.settings.seed == chosen.candidates.front().seed);
+    CHECK(chosen.settings.narrow_bonus == chosen.candidates.front().narrow_bonus);
+    CHECK(chosen.totals.support_length_mm == Approx(chosen.candidates.front().length_mm));
+    CHECK(chosen.verdict.proved);
 }

@@ -1,6 +1,7 @@
 // What is extruded rests on what is extruded below: gaps, patches, and the verdict.
 #include "ribvault/print/hold_print.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "print/random_forest.hpp"
@@ -84,6 +85,28 @@ TEST_CASE("what hangs inside the outline gets patches, and they shrink from laye
     // 5 mm to the shell at 0.2 mm a layer.
     CHECK(layers > 20);
     CHECK(layers < 40);
+}
+
+TEST_CASE("the root that a vanished tree leaves is printed only where something hangs without it, joined to what is there") {
+    SupportForest dot;
+    add_vertex(SupportVertex{{20000, 10 * mm}, true}, dot);
+    const auto dots = [](const HeldLayer& held) {
+        return std::count_if(held.plan.tracks.begin(), held.plan.tracks.end(), [](const PlannedTrack& t) { return is_support(t.paths.front().kind); });
+    };
+    CHECK(dots(hold_print(square_shell(), dot, nullptr, {})) == 0);
+    Settings paper;
+    paper.gaps = Gaps::paper;
+    CHECK(dots(hold_print(square_shell(), dot, nullptr, paper)) == 1);
+    // A stub that reaches 0.45 mm from the outline's centre line; 0.4 mm of it are held up.
+    const PrintedLayer above = print_of({track(TrackKind::support, false, {{0, 10 * mm}, {25000, 10 * mm}})});
+    const HeldLayer held = hold_print(square_shell(), dot, &above, {});
+    CHECK(judge_print(above, *held.printed, {}).supported);
+    REQUIRE(dots(held) == 1);
+    const ToolPath& path = held.plan.tracks.back().paths.front();
+    CHECK(path.on_track);
+    CHECK(path.points.front().x == 0);
+    CHECK(length(path) < 8000);
+    CHECK(length(path) > 5000);
 }
 
 TEST_CASE("what hangs outside the outline is measured, not patched") {

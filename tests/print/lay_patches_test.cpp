@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "print/geometry.hpp"
 #include "ribvault/print/drop_tiny_steps.hpp"
 
 using namespace ribvault;
@@ -63,6 +64,38 @@ TEST_CASE("beside a perimeter a short track, far from everything a dot") {
     CHECK(plan.tracks[3].paths[0].points == Points{{mm, mm}, {mm, 150000}});
 }
 
+TEST_CASE("a dot near another one is joined to that") {
+    LayerPlan plan = plan_of({track(TrackKind::outer_perimeter, {{0, 0}, {5 * mm, 0}, {5 * mm, 5 * mm}, {0, 5 * mm}}, Entry::fixed, true)});
+    CHECK(lay(plan, {dot(2 * mm, 2 * mm), dot(2 * mm, 2 * mm + 10000), dot(2 * mm, 2 * mm), dot(2 * mm, 25000), dot(2 * mm, 50000)}) == 10000 + 25000 + 25000);
+    REQUIRE(plan.tracks.size() == 5);
+    CHECK(plan.tracks[1].paths[0].points == Points{{2 * mm, 2 * mm}});
+    CHECK(plan.tracks[2].paths[0].points == Points{{2 * mm, 2 * mm}, {2 * mm, 2 * mm + 10000}});
+    CHECK(plan.tracks[3].paths[0].points == Points{{2 * mm, 0}, {2 * mm, 25000}});
+    CHECK(plan.tracks[4].paths[0].points == Points{{2 * mm, 25000}, {2 * mm, 50000}});
+    CHECK(std::count_if(plan.tracks.begin(), plan.tracks.end(), [](const PlannedTrack& t) { return t.paths[0].on_track; }) == 3);
+}
+
+TEST_CASE("a dot on a track needs nothing, one just beside it a step; on a narrower strip it stays a dot") {
+    const auto of_width = [](Unit width) {
+        LayerPlan plan = plan_of({track(TrackKind::thin_wall, {{0, 0}, {mm, 0}})});
+        plan.tracks[0].paths[0].width = width;
+        return plan;
+    };
+    LayerPlan wide = of_width(d), narrow = of_width(d / 2), beside = of_width(d), beside_narrow = of_width(d / 2);
+    CHECK(lay(wide, {dot(mm / 2, 0)}) == 0);
+    CHECK(wide.tracks.size() == 1);
+    CHECK(lay(narrow, {dot(mm / 2, 0)}) == 0);
+    REQUIRE(narrow.tracks.size() == 2);
+    CHECK(narrow.tracks[1].paths[0].points == Points{{mm / 2, 0}});
+    CHECK(lay(beside, {dot(mm / 2, 100)}) == 505);
+    REQUIRE(beside.tracks.size() == 2);
+    CHECK(beside.tracks[1].paths[0].points == Points{{mm / 2, 0}, {mm / 2, 505}});
+    CHECK(beside.tracks[1].paths[0].on_track);
+    lay(beside_narrow, {dot(mm / 2, 10000)});
+    REQUIRE(beside_narrow.tracks.size() == 2);
+    CHECK_FALSE(beside_narrow.tracks[1].paths[0].on_track);  // its end at the strip is wider than the strip
+}
+
 TEST_CASE("a strip of another width goes on at the width of a patch; external supports stay apart") {
     LayerPlan plan = plan_of({track(TrackKind::thin_wall, {{0, 0}, {mm, 0}})});
     plan.tracks[0].paths[0].width = 30000;
@@ -101,10 +134,18 @@ TEST_CASE("whatever the patches, they and all that was there are printed") {
                 total += length(t.paths[p]);
             }
         CHECK(total - had == Approx(static_cast<double>(added)).margin(200));
-        for (const Patch& patch : patches)
-            CHECK(std::any_of(plan.tracks.begin(), plan.tracks.end(), [&](const PlannedTrack& t) {
-                return std::any_of(t.paths.begin(), t.paths.end(), [&](const ToolPath& p) { return p.width == d && std::count(p.points.begin(), p.points.end(), patch.segment.a) > 0; });
-            }));
+        // A dot lies on the centre line of a track as wide as it is, up to the lattice.
+        for (const Patch& patch : patches) {
+            double nearest = HUGE_VAL;
+            for (const PlannedTrack& t : plan.tracks)
+                for (const ToolPath& path : t.paths) {
+                    std::vector<Segment> steps;
+                    append_segments(path, steps);
+                    if (path.width >= d)
+                        for (const Segment& step : steps) nearest = std::min(nearest, test::distance(patch.segment.a, step));
+                }
+            CHECK(nearest <= 1);
+        }
         for (std::size_t t = 0; t < before.tracks.size(); ++t) {
             Points all;
             for (const ToolPath& path : plan.tracks[t].paths) all.insert(all.end(), path.points.begin(), path.points.end());

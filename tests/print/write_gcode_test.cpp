@@ -107,6 +107,13 @@ ToolPath path_of(TrackKind kind, std::vector<Point> points, bool closed = false)
     return {kind, 40000, closed, std::move(points)};
 }
 
+/// Retracts over more than 5 mm of open air.
+PrinterSettings eager_printer() {
+    PrinterSettings printer;
+    printer.retract_over = 5;
+    return printer;
+}
+
 /// A layer alone: joined to nothing below, retracted at its end, all travels over open air.
 struct Whole {
     std::string text;
@@ -177,6 +184,19 @@ TEST_CASE("what is written reads back as the same paths on the lattice, and E is
     }
 }
 
+TEST_CASE("a stub on its own gets a dot's filament, one that is joined to a track its length's") {
+    const auto filament_of_second = [](std::vector<ToolPath> paths) { return parse(whole_layer(layer_of(std::move(paths)), {}, {}).text).tracks.at(1).filament; };
+    const ToolPath first = path_of(TrackKind::cover, {{0, 0}, {5 * mm, 0}}), next = path_of(TrackKind::cover, {{6 * mm, 5000}, {9 * mm, 0}});
+    const ToolPath alone = path_of(TrackKind::support, {{6 * mm, 0}, {6 * mm, 5000}}), after = path_of(TrackKind::support, {{5 * mm, 0}, {5 * mm, 5000}});
+    ToolPath on_track = alone;
+    on_track.on_track = true;
+    const double filament_per_mm = 0.4 * 0.2 / (std::numbers::pi / 4 * 1.75 * 1.75), dot = std::numbers::pi * 0.1 * filament_per_mm, stub = 0.05 * filament_per_mm;
+    CHECK(filament_of_second({first, alone, first}) == Approx(dot).margin(1e-5));
+    CHECK(filament_of_second({first, alone, next}) == Approx(stub).margin(1e-5));
+    CHECK(filament_of_second({first, after, first}) == Approx(stub).margin(1e-5));
+    CHECK(filament_of_second({first, on_track, first}) == Approx(stub).margin(1e-5));
+}
+
 TEST_CASE("types, widths, heights and statistics by kind") {
     Settings settings;
     settings.first_layer_height = 30000;
@@ -225,7 +245,7 @@ TEST_CASE("a layer begins and ends retracted; only long travels retract between"
         return layer_of(
             {path_of(TrackKind::cover, {{0, 0}, {mm, 0}}), path_of(TrackKind::cover, {{mm + apart, 0}, {19 * mm, 0}})});
     };
-    const Whole near = whole_layer(two(500000), {}, {}), far = whole_layer(two(500001), {}, {});
+    const Whole near = whole_layer(two(500000), {}, eager_printer()), far = whole_layer(two(500001), {}, eager_printer());
     CHECK(parse(near.text).pushes == std::vector<double>{3, -3});
     CHECK(parse(far.text).pushes == std::vector<double>{3, -3, 3, -3});
     CHECK(near.statistics.retractions == 1);
@@ -242,7 +262,7 @@ TEST_CASE("prime surplus before supports, but not near perimeters and not withou
     const auto pushes = [&](std::vector<Point> support, Point then) {
         return whole_layer(layer_of({perimeter, path_of(TrackKind::support, support),
                                      path_of(TrackKind::support, {then, then + Point{mm, mm}})}),
-                           {}, {});
+                           {}, eager_printer());
     };
     const Whole far = pushes({{10 * mm, 10 * mm}, {12 * mm, 10 * mm}}, {12 * mm, 11 * mm});
     CHECK(parse(far.text).pushes == std::vector<double>{3, -3, 3.15, -3});
@@ -266,7 +286,7 @@ TEST_CASE("whether a surplus is due agrees with the plain distance to all perime
         const Point start{place(random), place(random)};
         layer.paths.push_back(path_of(TrackKind::support, {start, start + Point{mm, 0}}));
     }
-    const Parsed read = parse(whole_layer(layer, {}, {}).text);
+    const Parsed read = parse(whole_layer(layer, {}, eager_printer()).text);
     REQUIRE(read.tracks.size() == layer.paths.size());
     int with = 0, without = 0;
     for (std::size_t i = 1; i < layer.paths.size(); ++i) {
@@ -341,7 +361,7 @@ TEST_CASE("a travel retracts for open air under it and for leaving the island, n
     const Region outline{ring(0, 40 * mm, false)}, cavity{ring(10 * mm, 30 * mm, false)};
     const auto retractions = [&](Point from, Point to) {
         const LayerPaths layer = layer_of({path_of(TrackKind::support, {from - Point{0, mm}, from}), path_of(TrackKind::support, {to, to + Point{0, mm}})});
-        return gcode_layer(layer, TravelMap(outline, cavity, layer), {}, {}).statistics.retractions;
+        return gcode_layer(layer, TravelMap(outline, cavity, layer), {}, eager_printer()).statistics.retractions;
     };
     CHECK(retractions({2 * mm, 2 * mm}, {2 * mm, 35 * mm}) == 0);           // over the shell, however far
     CHECK(retractions({9 * mm, 20 * mm}, {15 * mm, 20 * mm}) == 0);         // 5 mm of open air
@@ -366,9 +386,9 @@ TEST_CASE("layers are joined without a retraction where the way is short or insi
     const auto joint = [&](Point start) {
         const LayerPaths above = layer_at(5, start, {5 * mm, 5 * mm});
         const TravelMap map(outline, cavity, above);
-        const LayerText lower = gcode_layer(below, TravelMap(outline, cavity, below), {}, {}), upper = gcode_layer(above, map, {}, {});
+        const LayerText lower = gcode_layer(below, TravelMap(outline, cavity, below), {}, eager_printer()), upper = gcode_layer(above, map, {}, eager_printer());
         PrintStatistics sum;
-        const std::string text = gcode_joint(&lower, upper, map, {}, {}, sum);
+        const std::string text = gcode_joint(&lower, upper, map, {}, eager_printer(), sum);
         CHECK(sum.travels == 1);
         CHECK(sum.travel == Approx(length(start - Point{20 * mm, 20 * mm}) / mm));
         CHECK(parse(text).travels == 1);

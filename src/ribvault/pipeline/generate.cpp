@@ -12,6 +12,7 @@
 #include "ribvault/mesh/read_mesh.hpp"
 #include "ribvault/output_file.hpp"
 #include "ribvault/pipeline/check_bed.hpp"
+#include "ribvault/pipeline/choose_supports.hpp"
 #include "ribvault/pipeline/layer_spool.hpp"
 #include "ribvault/pipeline/shape_outputs.hpp"
 #include "ribvault/pipeline/sweep_layers.hpp"
@@ -57,7 +58,6 @@ public:
         thumbnail_sizes(job_.printer.thumbnails);
         report_.version = RIBVAULT_VERSION;
         report_.input_path = job_.model.string();
-        report_.settings = job_.settings;
         report_.tracks = job_.tracks;
         report_.printer = job_.printer;
         read();
@@ -65,11 +65,12 @@ public:
         check_layers(slicer);
         open_outputs(slicer.layer_count());
         times_["read"] = seconds_since(start_);
+        const Box frame = job_.settings.outside() ? support_frame(mesh_, report_.placement, job_.settings) : Box();
+        choose(slicer, frame);
 
         const auto finish = [&](const SweptLayer& layer, const LayerMaterial* below) { return std::shared_ptr<void>(finish_layer(slicer, layer, below)); };
         const auto collect = [&](const SweptLayer&, std::shared_ptr<void> output) { collect_layer(std::static_pointer_cast<LayerOutput>(output)); };
-        times_.merge(sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop,
-                                  job_.settings.outside() ? support_frame(mesh_, report_.placement, job_.settings) : Box()));
+        times_.merge(sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop, frame));
         times_.erase("finish");  // its parts are counted one by one
         if (waiting_) join(nullptr);
         times_["proof"] = 1e-9 * static_cast<double>(proof_), times_["paths"] = 1e-9 * static_cast<double>(paths_);
@@ -99,6 +100,17 @@ private:
         job_.warn(job_.model.string() + ": the mesh is not closed (" + std::to_string(report_.input.boundary_edges) +
                   " boundary edges); its slices are closed over gaps up to --max-gap");
         require_closed_contours(slicer, job_.settings);
+    }
+
+    /// Settles what the settings leave open.
+    void choose(const Slicer& slicer, const Box& frame) {
+        const auto from = Time::now();
+        report_.candidates = sweep_candidates(slicer, job_.settings, job_.threads, job_.stop, frame, job_.choosing);
+        if (!report_.candidates.empty()) {
+            job_.settings.narrow_bonus = report_.candidates.front().narrow_bonus, job_.settings.seed = report_.candidates.front().seed;
+            times_["choose"] = seconds_since(from);
+        }
+        report_.settings = job_.settings;
     }
 
     void open_outputs(int layers) {
@@ -307,7 +319,7 @@ private:
         if (json_) json_->commit();
     }
 
-    const Job& job_;
+    Job job_;  ///< with what was chosen
     Time::time_point start_;
     Mesh mesh_;
     RunReport report_;

@@ -21,6 +21,7 @@ struct Job {
     PrinterSettings printer;
     int threads = 0;  ///< 0: all processors
     std::function<void(int done, int total)> progress = [](int, int) {};
+    std::function<void(int done, int total)> choosing = [](int, int) {};  ///< the same for the sweeps before the run (Settings::choose_bonus, tries)
     std::function<void(const std::string&)> warn = [](const std::string&) {};
     std::function<bool()> stop = [] { return false; };
 };

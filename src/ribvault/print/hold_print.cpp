@@ -8,6 +8,7 @@
 #include "ribvault/exact/point_location.hpp"
 #include "ribvault/print/drop_tiny_steps.hpp"
 #include "ribvault/print/lay_patches.hpp"
+#include "ribvault/print/place_dot.hpp"
 #include "ribvault/print/printed_tracks.hpp"
 #include "ribvault/print/support_paths.hpp"
 
@@ -24,10 +25,21 @@ double distance(const Segment& s, const Segment& t) {
     return std::sqrt(least);
 }
 
+/// Without its isolated roots, which hold up the last stub of a wall above: they are printed where something hangs without them, as patches.
+SupportForest without_dots(const SupportForest& forest) {
+    SupportForest walls;
+    std::vector<std::size_t> index(num_vertices(forest));
+    for (auto [v, end] = vertices(forest); v != end; ++v)
+        if (out_degree(*v, forest) > 0 || forest[*v].free) index[*v] = add_vertex(forest[*v], walls);
+    for (auto [e, end] = edges(forest); e != end; ++e) add_edge(index[source(*e, forest)], index[target(*e, forest)], forest[*e], walls);
+    return walls;
+}
+
 class Holder {
 public:
     Holder(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Cavity* beside, const Settings& settings)
         : shell_(std::move(shell)), forest_(forest), above_(above), settings_(settings), beside_(beside) {
+        if (settings.gaps == Gaps::proved) forest_ = without_dots(forest_);
         if (settings.gaps == Gaps::none)
             for (auto [e, end] = edges(forest_); e != end; ++e) forest_[*e].to_junction = true;
     }
@@ -41,7 +53,7 @@ public:
             if (!tracks_ && close_gaps(hanging) > 0)
                 lay_supports();
             else
-                patch(hanging);
+                patch(hanging, round);
             held_.mended = true;
             held_.judgement->change_below(*held_.printed);
             hanging = open();
@@ -114,12 +126,12 @@ private:
     }
 
     /// Puts patches under what hangs and lays them with the tracks that are there. From now on those stay as they are.
-    void patch(const std::vector<OpenStretch>& open) {
+    void patch(const std::vector<OpenStretch>& open, int round) {
         if (!tracks_) {
             without_patches_ = std::move(held_.plan);
             tracks_.emplace(without_patches_);
         }
-        add_patches(open);
+        add_patches(open, round);
         held_.plan = without_patches_;
         held_.patch_length = lay_patches(patches_, *tracks_, held_.plan, settings_.nozzle);
         held_.printed = std::make_shared<const PrintedLayer>(printed_layer(held_.plan));
@@ -139,7 +151,22 @@ private:
         return nearest;
     }
 
-    void add_patches(const std::vector<OpenStretch>& open) {
+    /// The tracks and patches that come near a stretch.
+    std::vector<Lane> material_near(const Segment& stretch) const {
+        const Unit reach = 2 * settings_.nozzle + 2 * settings_.support_radius;
+        Box box;
+        for (const Point p : {stretch.a, stretch.b}) box.add({p.x - reach, p.y - reach}), box.add({p.x + reach, p.y + reach});
+        std::vector<Lane> lanes;
+        tracks_->segments().visit(box, [&](std::uint32_t k) {
+            const PlanTracks::Place place = tracks_->place(k);
+            lanes.push_back({tracks_->segments().segments()[k], without_patches_.tracks[place.track].paths[place.path].width});
+        });
+        for (const Patch& patch : patches_)
+            if (near(stretch, patch.segment, static_cast<double>(reach))) lanes.push_back({patch.segment, settings_.nozzle});
+        return lanes;
+    }
+
+    void add_patches(const std::vector<OpenStretch>& open, int round) {
         const std::size_t before = patches_.size();
         std::vector<Segment> loops;
         for (const PlannedTrack& track : shell_.tracks)
@@ -156,7 +183,15 @@ private:
         };
         for (const OpenStretch& stretch : open) {
             const Segment hanging = place_of(above_->tracks[stretch.track], stretch);
-            const bool held = std::any_of(patches_.begin() + static_cast<std::ptrdiff_t>(before), patches_.end(), [&](const Patch& patch) {
+            std::optional<PlacedDot> placed;
+            if (round < rounds / 2 && !(beside_ && beside_->walls)) {
+                const PrintedTrack& track = above_->tracks[stretch.track];
+                const Segment whole = place_of(track, {0, 0, HUGE_VAL});
+                placed = place_dot({{whole, round_to_lattice(track.width.get_d() * units_per_mm)}, stretch.from_mm * units_per_mm, stretch.to_mm * units_per_mm},
+                                   material_near(hanging), settings_.nozzle, settings_.support_radius);
+                if (placed && !placed->needed) continue;
+            }
+            const bool held = !placed && std::any_of(patches_.begin() + static_cast<std::ptrdiff_t>(before), patches_.end(), [&](const Patch& patch) {
                 const Segment& p = patch.segment;
                 return compare_distance(hanging.a, p, step) <= 0 && compare_distance(hanging.b, p, step) <= 0;
             });
@@ -165,7 +200,9 @@ private:
             // Tried before without success: now just below it.
             const bool again = std::find(tried_.begin(), tried_.end(), s.a) != tried_.end();
             tried_.push_back(s.a);
-            if (!again) {
+            if (placed) {
+                s = {placed->at, placed->at};
+            } else if (!again) {
                 const Point middle{(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2};
                 const Unit half = round_to_lattice(length(s) / 2) + 2;
                 if (half <= step) {

@@ -40,26 +40,37 @@ private:
     };
     using Step = std::tuple<std::size_t, std::size_t, std::size_t>;
 
-    void lay(TrackKind kind, const Segment& s) {
-        ToolPath path{kind, width_, false, {s.a}};
+    void lay(TrackKind kind, const Segment& s, bool on_track = false) {
+        laid_.push_back({s, kind});
+        ToolPath path{kind, width_, false, {s.a}, on_track};
         if (!is_tiny_step(s.a, s.b)) path.points.push_back(s.b), added_ += length(s);
         plan_.tracks.push_back({{std::move(path)}, Entry::either_end, no_stop});
     }
 
     bool join(const Patch& patch) {
-        const Point dot = patch.segment.a;
+        Point dot = patch.segment.a;
         if (on_.segments().empty()) return false;
-        const std::uint32_t index = on_.segments().nearest(dot).index;
-        const Segment& step = on_.segments().segments()[index];
-        const auto [t, p, k] = on_.place(index);
+        const NearestSegment::Hit hit = on_.segments().nearest(dot);
+        if (const Patch* near = nearest_laid(patch); near && compare(squared_distance(dot, near->segment), hit.distance) < 0) {
+            const Point from = nearest_point(dot, near->segment);
+            if (dot == from) return true;
+            dot = beyond_tiny(from, dot);
+            if (length(dot - from) > dot_) return false;
+            lay(patch.kind, {from, dot}, true);
+            return true;
+        }
+        const Segment& step = on_.segments().segments()[hit.index];
+        const auto [t, p, k] = on_.place(hit.index);
         PlannedTrack& track = plan_.tracks[t];
         const ToolPath& path = track.paths[p];
         if ((patch.kind == TrackKind::external_support) != (path.kind == TrackKind::external_support)) return false;
         Point from = nearest_point(dot, step);
         for (const Point end : {step.a, step.b})
             if (is_tiny_step(from, end)) from = end;
+        if (dot == from) return path.width >= width_;
+        dot = beyond_tiny(from, dot);
         const double way = length(dot - from);
-        if (way > dot_ || is_tiny_step(dot, from)) return false;
+        if (way > dot_) return false;
         if (!path.closed) {
             const bool last = p + 1 == track.paths.size() && k + 2 >= path.points.size() && from == step.b;
             const bool first = p == 0 && k == 0 && from == step.a && track.entry == Entry::either_end;
@@ -67,16 +78,37 @@ private:
                 if ((at_end ? last : first) && prolonged_.insert({t, at_end}).second) {
                     prolong(t, at_end, patch.kind, dot);
                     added_ += way;
+                    laid_.push_back({{from, dot}, patch.kind});
                     return true;
                 }
         }
         if (is_support(path.kind) && !path.closed && path.width == width_ && path.points.size() > 1 && 2 * way <= dot_) {
             spurs_[{t, p, k}].push_back({length(from - step.a), from, dot});
             added_ += 2 * way;
+            laid_.push_back({{from, dot}, patch.kind});
         } else {
-            lay(patch.kind, {from, dot});
+            lay(patch.kind, {from, dot}, path.width >= width_);
         }
         return true;
+    }
+
+    /// `to`, or on the way there what is just far enough for a step.
+    static Point beyond_tiny(Point from, Point to) {
+        if (!is_tiny_step(from, to)) return to;
+        const Point way = to - from;
+        const double t = 1.01 * static_cast<double>(shortest_step) / length(way);
+        return from + Point{round_to_lattice(t * static_cast<double>(way.x)), round_to_lattice(t * static_cast<double>(way.y))};
+    }
+
+    /// Of the same kind.
+    const Patch* nearest_laid(const Patch& patch) const {
+        const Patch* nearest = nullptr;
+        double least = HUGE_VAL;
+        for (const Patch& laid : laid_) {
+            if (laid.kind != patch.kind) continue;
+            if (const double d = squared_distance(patch.segment.a, laid.segment).value(); d < least) least = d, nearest = &laid;
+        }
+        return nearest;
     }
 
     /// Points before the first one would shift the steps that spurs leave from: they are kept apart until the end.
@@ -129,6 +161,7 @@ private:
     const double dot_;  ///< length of track that takes as much material as a dot
     double added_ = 0;
     std::set<std::pair<std::size_t, bool>> prolonged_;  ///< the track; at its end, or its beginning
+    std::vector<Patch> laid_;  ///< what was added so far
     std::map<Step, std::vector<Spur>> spurs_;
     std::map<std::size_t, ToolPath> before_;
 };

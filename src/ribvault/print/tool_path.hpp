@@ -27,6 +27,7 @@ struct ToolPath {
     Unit width = 0;
     bool closed = false;  ///< the last point joins the first
     std::vector<Point> points;
+    bool on_track = false;  ///< one of its ends lies on the centre line of another track: however short, it is no dot
 };
 
 /// Where the nozzle stands after printing a path with at least one point.

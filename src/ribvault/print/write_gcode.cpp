@@ -103,10 +103,10 @@ struct Writer {
         statistics.volume[static_cast<std::size_t>(path.kind)] += volume;
         statistics.filament += volume / filament_area(printer);
     }
-    void track(const ToolPath& path, Unit height, double mm_per_s) {
+    void track(const ToolPath& path, Unit height, double mm_per_s, bool joined) {
         double volume_per_mm = to_mm(path.width) * to_mm(height);
-        // A stub shorter than a quarter of its width gets a dot's filament: it is a dot, a little drawn out.
-        if (const double whole = length(path); 4 * whole < static_cast<double>(path.width))
+        // A stub shorter than a quarter of its width, on its own, gets a dot's filament: it is a dot, a little drawn out.
+        if (const double whole = length(path); !joined && 4 * whole < static_cast<double>(path.width))
             volume_per_mm *= std::numbers::pi / 4 * static_cast<double>(path.width) / whole;
         const double filament_per_unit = to_mm(1) * volume_per_mm / filament_area(printer);
         double sum = 0;
@@ -184,7 +184,9 @@ LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Setti
     const PerimeterRows perimeters(layer, round_to_lattice(printer.surplus_clearance * units_per_mm));
     const auto with_surplus = [&](const ToolPath& path) { return is_support(path.kind) && !perimeters.near(path.points.front()); };
     const ToolPath* previous = nullptr;
-    const auto print = [&](const ToolPath& path) {
+    // `next` is printed after `path`, if anything is.
+    const auto print = [&](const ToolPath& path, const ToolPath* next) {
+        const bool joined = path.on_track || (previous && end_of(*previous) == path.points.front()) || (next && next->points.front() == end_of(path));
         const TrackEnd start{path.points.front(), path.width};
         if (!previous) {
             out.first = start, out.surplus = with_surplus(path);
@@ -207,11 +209,11 @@ LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Setti
         if (path.points.size() == 1)
             writer.dot(path, height, speed_of(path, layer.layer, printer));
         else
-            writer.track(path, height, speed_of(path, layer.layer, printer));
+            writer.track(path, height, speed_of(path, layer.layer, printer), joined);
         previous = &path;
     };
-    for (const ToolPath& path : beside) print(path);
-    for (const ToolPath& path : layer.paths) print(path);
+    for (const ToolPath& path : beside) print(path, nullptr);
+    for (std::size_t i = 0; i < layer.paths.size(); ++i) print(layer.paths[i], i + 1 < layer.paths.size() ? &layer.paths[i + 1] : nullptr);
     if (previous) out.last = TrackEnd{end_of(*previous), previous->width};
     out.body = std::move(writer.text);
     out.statistics = writer.statistics;

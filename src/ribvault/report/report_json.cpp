@@ -60,11 +60,13 @@ Json settings(const Settings& s) {
             {"branch_bonus", s.branch_bonus},
             {"branch_bonus_length_mm", to_mm(s.branch_bonus_length)},
             {"narrow_bonus", s.narrow_bonus},
+            {"choose_bonus", s.choose_bonus},
             {"valence_limit", s.valence_limit},
             {"wall_lines", s.wall_lines},
             {"wall_lines_longer_mm", to_mm(s.wall_lines_longer)},
             {"wall_lines_taller_mm", to_mm(s.wall_lines_taller)},
             {"seed", s.seed},
+            {"tries", s.tries},
             {"sampling_pitch_mm", to_mm(s.sampling_pitch)},
             {"slack_mm", to_mm(s.slack)},
             {"max_gap_mm", to_mm(s.max_gap)}};
@@ -263,6 +265,9 @@ std::string run_members(const RunReport& report, std::string_view separator) {
     member("settings", settings(report.settings));
     member("tracks", tracks(report.tracks, report.settings));
     member("printer", printer(report.printer));
+    Json candidates = Json::array();
+    for (const Candidate& c : report.candidates) candidates.push_back({{"narrow_bonus", c.narrow_bonus}, {"seed", c.seed}, {"support_length_mm", measured(c.length_mm)}});
+    member("candidates", candidates);
     member("verdict", summary(report.verdict));
     member("totals", totals(report.totals, report.layers.size()));
     return text;

@@ -113,6 +113,13 @@ struct MachineFacts {
     std::map<std::string, double> stage_seconds;  ///< busy time of each stage, summed over threads
 };
 
+/// One way to grow the supports, and the length of all their tracks.
+struct Candidate {
+    bool narrow_bonus = false;
+    std::uint64_t seed = 1;
+    double length_mm = 0;
+};
+
 struct RunReport {
     std::string version;     ///< of the program
     std::string input_path;  ///< as the user wrote it
@@ -121,6 +128,7 @@ struct RunReport {
     Settings settings;
     TrackSettings tracks;
     PrinterSettings printer;
+    std::vector<Candidate> candidates;  ///< swept before the run, the one used first; empty when nothing was left to choose
     std::vector<LayerReport> layers;
     RunTotals totals;
     VerdictSummary verdict;

@@ -1,0 +1,21 @@
+// Choices whose price is known only at the bed: made by sweeping the supports alone, with every choice, before the run.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "ribvault/pipeline/sweep_layers.hpp"
+#include "ribvault/report/run_report.hpp"
+
+namespace ribvault {
+
+/// Sweeps all layers with every combination that `settings` leaves open (choose_bonus: the bonus halved in narrow places or not; tries: as many
+/// seeds from settings.seed on) and returns them, the first with the least track first, the others in the order in which they were tried.
+/// Nothing is printed or proved meanwhile; slices and cavities are made once for all of them. Empty where nothing is open. At most a
+/// window of layers is alive at any time. The result does not depend on `threads`. `progress(done, layers)` as layers are done.
+///
+/// Throws as sweep_layers does. `frame` as there.
+std::vector<Candidate> sweep_candidates(const Slicer& slicer, const Settings& settings, int threads, const std::function<bool()>& stop, const Box& frame,
+                                        const std::function<void(int, int)>& progress);
+
+}  // namespace ribvault

@@ -1,0 +1,123 @@
+// The part of the pipeline before the sweep: slices, cavities and what hangs over them, layer by layer from the top. What it knows of a layer
+// does not depend on any support.
+#pragma once
+
+#include <oneapi/tbb/parallel_pipeline.h>
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <mutex>
+
+#include "ribvault/pipeline/sweep_layers.hpp"
+#include "ribvault/vault/next_layer.hpp"
+
+namespace ribvault {
+
+/// Seconds spent in one stage, by all threads.
+class Clock {
+public:
+    template <class Work>
+    auto measure(Work&& work) {
+        const auto start = std::chrono::steady_clock::now();
+        struct Stop {
+            std::chrono::steady_clock::time_point start;
+            std::atomic<std::int64_t>& total;
+            ~Stop() { total += std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count(); }
+        } stop{start, nanoseconds_};
+        return work();
+    }
+    double seconds() const { return 1e-9 * static_cast<double>(nanoseconds_); }
+
+private:
+    std::atomic<std::int64_t> nanoseconds_{0};
+};
+
+/// A slice and its erosion, alive while a cavity near it needs them.
+struct Eroded {
+    std::shared_ptr<const Slice> slice;
+    std::shared_ptr<const Region> region;
+    std::vector<GapClosing> closings;
+};
+
+/// What travels through the pipeline. Token `slice_index` brings in one slice and, with the covers' delay, sends one layer
+/// on.
+struct Token {
+    int slice_index = 0;
+    Eroded own;
+    int layer = -1;  ///< the layer whose cavity this token computes; -1: none yet, or none any more
+    std::vector<std::shared_ptr<const Region>> eroded;  ///< slices layer - k .. layer + k; empty where one is missing
+    LayerMaterial material, above;
+    Region overhang, overhang_outside;
+    std::shared_ptr<SweptLayer> swept;                   ///< the layer above `layer`, complete now
+    std::shared_ptr<const LayerMaterial> below_swept;
+    std::shared_ptr<void> finished;
+};
+using TokenPtr = Token*;
+
+/// The tokens on their way. When a stage throws, TBB forgets those that are under way: they are freed here.
+class Tokens {
+public:
+    TokenPtr add() {
+        const std::lock_guard lock(mutex_);
+        return &tokens_.emplace_back();
+    }
+    /// Tokens arrive in the order in which they left.
+    void remove_first() {
+        const std::lock_guard lock(mutex_);
+        tokens_.pop_front();
+    }
+
+private:
+    std::mutex mutex_;
+    std::deque<Token> tokens_;
+};
+
+/// S_i under `above` = S_{i+1}, in the cavity and outside: next_layer for the layer of this token.
+LayerSupports next_supports(SupportForest& above, const Token& token, const Settings& settings);
+
+/// S_i as segments; dots as segments of no length.
+std::shared_ptr<const std::vector<Segment>> tracks_of(const SupportForest& forest);
+
+/// How many threads `threads` are (0: all that TBB allows).
+std::size_t thread_limit(int threads);
+
+/// Makes tokens of layers, from the top. One use: filter() is the head of one pipeline.
+class LayerFront {
+public:
+    /// Without `tracks` no shell is planned. All arguments must outlive the pipeline.
+    LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks, const std::function<bool()>& stop, const Box& frame);
+
+    oneapi::tbb::filter<void, TokenPtr> filter();
+    /// A token that has been through the whole pipeline, in the order in which they left.
+    void remove(TokenPtr) { tokens_.remove_first(); }
+    /// Whether this token is the last one: all layers have been through.
+    bool is_last(TokenPtr token) const { return token->slice_index == last_; }
+    /// How many tokens a pipeline of so many threads needs.
+    std::size_t window(std::size_t threads) const { return 4 * threads + static_cast<std::size_t>(settings_.top_layers + settings_.bottom_layers); }
+    StageTimes seconds() const;
+
+private:
+    TokenPtr produce(oneapi::tbb::flow_control& flow);
+    void slice(Token& token);
+    void gather(Token& token);
+    void hollow(Token& token);
+    void pair(Token& token);
+    void hang(Token& token);
+
+    const Slicer& slicer_;
+    const Settings& settings_;
+    const TrackSettings* tracks_;
+    const std::function<bool()>& stop_;
+    const Box& frame_;
+    const int layers_, last_;
+    int next_;  ///< after the last slice come empty tokens that push the last layers through
+    Tokens tokens_;
+    std::deque<Eroded> window_;  ///< slices window_top_, window_top_ - 1, ...
+    int window_top_;
+    LayerMaterial above_;
+    Clock slicing_, eroding_, cavities_, overhangs_, planning_;
+};
+
+}  // namespace ribvault
