@@ -13,18 +13,21 @@ PEER_MM3 = {"cube": 217, "bunny": 1117, "moai": 773, "kitten": 601}  # CuraEngin
 INGREDIENTS = {"all": (), "no shrink": ("--no-shrink",), "no trim": ("--no-trim",), "no doubling": ("--no-doubling",), "half bonus": ("--narrow-bonus", "half"), "whole bonus": ("--narrow-bonus", "whole")}
 
 
+MM3_PER_MM = 0.4 * 0.2  # of track
+
+
 def build(lab):
     models = [lab.registry[n] for n in PAPERS]
     models += [dataclasses.replace(lab.registry[n], placement=("--height", "50")) for n in MESHES]
     table = Table("thrifty", "Supports in mm³, one cover, seed 1, print proved (--gaps proved)",
                   [("model", ""), ("paper's strategy", ".0f"), *((f"thrifty, {k}" if k != "all" else "thrifty", ".0f") for k in INGREDIENTS),
-                   ("thrifty/paper's", ".2f"), ("CuraEngine's lightning", "d"), ("CPU s: paper's", ".2f"), ("CPU s: thrifty", ".2f"), ("proved", ""), ("what", "")])
+                   ("thrifty/paper's", ".2f"), ("no supports below", ".0f"), ("slenderness: paper's", ".0f"), ("slenderness: thrifty", ".0f"), ("CuraEngine's lightning", "d"), ("CPU s: paper's", ".2f"), ("CPU s: thrifty", ".2f"), ("proved", ""), ("what", "")])
     totals = Table("thrifty_totals", "Total material in mm³ under Table 2's settings (no covers; the cube with one), print proved",
                    [("model", ""), ("Table 2: ours", ".0f"), ("Table 2: iterative carving", ".0f"), ("paper's strategy", ".0f"), ("thrifty", ".0f"), ("proved", ""), ("what", "")])
     ratios = []
     for name, model in zip(PAPERS + MESHES, models):
         if not model.file:
-            table.add(model.title, *[None] * 11, None, "the file is missing (--models)")
+            table.add(model.title, *[None] * 14, None, "the file is missing (--models)")
             continue
         base = Run("generate", model, (*ONE_COVER, "--gaps", "proved"))
         runs = [Run("generate", model, (*ONE_COVER, "--strategy", "thrifty", *options)) for options in INGREDIENTS.values()]
@@ -33,11 +36,13 @@ def build(lab):
         if ratio:
             ratios.append(ratio)
         proved = [lab.value(r, "verdict.proved") and lab.value(r, "verdict.print.proved") for r in (base, *runs)]
-        table.add(model.title, paper, *ours, ratio, PEER_MM3.get(name), lab.value(base, "cpu_seconds"), lab.value(runs[0], "cpu_seconds"),
+        bound = lab.value(Run("generate", model, (*ONE_COVER, "--strategy", "thrifty", "--length-bound")), "totals.support_length_bound_mm")
+        slender = [lab.value(r, "totals.slenderness") for r in (base, runs[0])]
+        table.add(model.title, paper, *ours, ratio, None if bound is None else bound * MM3_PER_MM, *slender, PEER_MM3.get(name), lab.value(base, "cpu_seconds"), lab.value(runs[0], "cpu_seconds"),
                   all(proved), lab.why(base) or model.origin)
     if ratios:
         mean = math.exp(sum(map(math.log, ratios)) / len(ratios))
-        table.add("geometric mean", *[None] * 7, mean, None, None, None, None, f"largest {max(ratios):.2f}")
+        table.add("geometric mean", *[None] * 7, mean, *[None] * 7, f"largest {max(ratios):.2f}")
     for row, model, real in lab.paper_models("table2_reduction"):
         if model is None or not real:
             continue

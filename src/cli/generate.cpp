@@ -78,6 +78,7 @@ void add_geometry(CLI::App* command, Written& w) {
         ->check(CLI::IsMember({"half", "whole", "chosen"}))->type_name("NAME");
     supports->add_option("--tries", s.tries, "seeds to try; the one that takes the least is used (default 1)");
     supports->add_flag_function("--no-doubling", [&s](std::int64_t) { s.order = Order::distance; }, "thrifty with the paper's order of points");
+    supports->add_flag("--length-bound", s.length_bound, "report how short any supports could be at least");
     add_length(supports, "--erosion-step", w.erosion_step, "what a free tip loses per layer (default: rho)");
     supports->add_flag("--no-straighten", w.no_straighten, "leave out the straightening operator");
     supports->add_option("--wall-lines", s.wall_lines, "tracks side by side in long or tall walls (default 1)");

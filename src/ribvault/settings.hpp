@@ -62,6 +62,7 @@ struct Settings {
     bool narrow_bonus = false;  ///< half of it where what is unsupported is narrow: no disc of radius 3/4 d has room in its piece
     bool choose_bonus = false;  ///< narrow_bonus is as takes less track over all layers (pipeline/choose_supports.hpp)
     int tries = 1;              ///< so many seeds from `seed` on are tried; the one that takes the least track is used
+    bool length_bound = false;  ///< the report gives a lower bound on the supports' length (vault/length_bound.hpp)
     int valence_limit = 4;             ///< the bonus counts for valence 1 .. valence_limit - 1
     std::uint64_t seed = 1;            ///< ties of Section 4.3
 

@@ -108,6 +108,7 @@ TEST_CASE("without straightening the cube's supports are at least 1.4 times as l
 TEST_CASE("random solids end proved under random settings") {
     const Folder folder;
     std::mt19937_64 random(20190614);
+    int bounded = 0;  // runs whose lower bound says something
     for (int round = 0; round < 24; ++round) {
         Job job = job_for(folder.file("solid.off", random_solid(random)));
         job.settings.seed = random();
@@ -120,12 +121,16 @@ TEST_CASE("random solids end proved under random settings") {
         if (round % 4 == 3) job.settings.sampling_pitch = 4000;
         if (round % 5 == 4) job.settings.propagation = Propagation::shrink, job.settings.order = Order::doubling, job.settings.trim = true;
         if (round % 4 >= 2) job.settings.wall_lines = round % 4, job.settings.wall_lines_longer = job.settings.wall_lines_taller = 3 * units_per_mm;
+        job.settings.length_bound = true;
         const RunReport report = generate(job);
         INFO("round " << round);
         CHECK(report.verdict.proved);
+        for (const LayerReport& layer : report.layers) CHECK(layer.support_length_bound_mm <= layer.support_length_mm);
+        bounded += report.totals.support_length_bound_mm > 0.05 * report.totals.support_length_mm;
         CHECK(report.verdict.layers_proved == static_cast<int>(report.layers.size()));
         CHECK(report.verdict.print_proved);
     }
+    CHECK(bounded > 4);
 }
 
 TEST_CASE("same input, settings and seed give the same bytes for any number of threads") {

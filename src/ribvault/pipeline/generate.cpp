@@ -168,6 +168,7 @@ private:
         r.shell_area_mm2 = area_to_mm2(signed_area(layer.slice->rounded) - signed_area(layer.cavity->region));
         r.shell_volume_mm3 = r.shell_area_mm2 * height;
         for (const Segment& track : *layer.tracks) r.support_length_mm += length(track) / units_per_mm;
+        r.support_length_bound_mm = swept.length_bound / units_per_mm;
         const auto of = [](TrackKind kind) { return static_cast<std::size_t>(kind); };
         r.support_printed_length_mm = p.length[of(TrackKind::support)];
         r.support_volume_mm3 = p.volume[of(TrackKind::support)];

@@ -73,6 +73,9 @@ std::string summary(const RunReport& r, const Job& job) {
     if (r.settings.outside())
         print(text, ", external supports %.1f (%.0f mm)", r.totals.external_support_volume_mm3, r.totals.external_support_printed_length_mm);
     print(text, "; %.2f m of filament\n", r.totals.filament_mm / 1000);
+    if (r.settings.length_bound)
+        print(text, "bound     whatever the method, internal supports need at least %.0f mm of track; here they have %.0f mm\n",
+              r.totals.support_length_bound_mm, r.totals.support_length_mm);
     print(text, "print     about %.0f min; %ld travels, %.1f m, %ld retractions\n", r.totals.print_seconds / 60, r.totals.travels,
           r.totals.travel_mm / 1000, r.totals.retractions);
     if (r.totals.slenderness > 0) {

@@ -5,6 +5,7 @@
 #include "ribvault/error.hpp"
 #include "ribvault/pipeline/layer_front.hpp"
 #include "ribvault/print/wide_walls.hpp"
+#include "ribvault/vault/length_bound.hpp"
 
 namespace ribvault {
 
@@ -20,17 +21,20 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
     Clock sweeping, holding, finishing;
     LayerFront front(slicer, settings, &track_settings, stop, frame);
     std::shared_ptr<SweptLayer> previous;
+    LengthBound length_bound;
     const auto sweep = [&](TokenPtr token) {
         sweeping.measure([&] {
             if (token->layer >= 0) {
                 SupportForest none;
                 SupportForest& forest = previous ? previous->forest : none;
                 LayerSupports supports = next_supports(forest, *token, settings);
+                double bound = 0;
+                if (settings.length_bound) bound = length_bound.next(*token->material.cavity, token->overhang, token->above.cavity.get(), settings);
                 token->material.tracks = tracks_of(supports.forest);
                 token->swept = std::move(previous);
                 token->below_swept = std::make_shared<const LayerMaterial>(token->material);
                 previous = std::make_shared<SweptLayer>(SweptLayer{
-                    std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), supports.blocked, {}, nullptr});
+                    std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), bound, supports.blocked, {}, nullptr});
             } else if (front.is_last(token) && previous) {
                 for (auto [e, end] = edges(previous->forest); e != end; ++e) previous->forest[*e].first_layer = true;
                 token->swept = std::move(previous);

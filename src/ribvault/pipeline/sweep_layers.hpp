@@ -32,6 +32,7 @@ struct SweptLayer {
     LayerMaterial material;
     SupportForest forest;  ///< S_i, SupportEdge::first_layer set
     Region unsupported;    ///< what of layer i + 1 the walls copied from above and the shell did not hold up
+    double length_bound = 0;  ///< no supports here could be shorter, lattice units; 0 unless settings.length_bound
     int blocked = 0;       ///< chains that could not be straightened without crossing a wall
     HeldLayer held;        ///< what is printed
     std::shared_ptr<const PrintedLayer> printed_above;  ///< on the layer above; nullptr: this is the top

@@ -18,6 +18,7 @@ void sum_up(RunReport& report) {
         t.external_support_volume_mm3 += layer.external_support_volume_mm3;
         t.external_support_printed_length_mm += layer.external_support_printed_length_mm;
         t.support_length_mm += layer.support_length_mm;
+        t.support_length_bound_mm += layer.support_length_bound_mm;
         t.support_printed_length_mm += layer.support_printed_length_mm;
         t.perimeter_length_mm += layer.perimeter_length_mm;
         t.cover_length_mm += layer.cover_length_mm;

@@ -20,6 +20,7 @@ struct LayerReport {
     double shell_area_mm2 = 0;             ///< area(B_i): perimeters and covers
     double shell_volume_mm3 = 0;           ///< its area times the layer's height
     double support_length_mm = 0;          ///< centre lines of S_i, through their junctions
+    double support_length_bound_mm = 0;    ///< no internal supports here could be shorter; 0 where not asked for
     double support_printed_length_mm = 0;  ///< the same without the gaps of Section 4.4
     double support_volume_mm3 = 0;         ///< of internal supports: printed length times d times the layer's height, and dots
     double external_support_printed_length_mm = 0;  ///< of external supports alone
@@ -61,6 +62,7 @@ struct RunTotals {
     double external_support_printed_length_mm = 0;
     double material_mm3 = 0;  ///< shell and supports
     double support_length_mm = 0;
+    double support_length_bound_mm = 0;
     double support_printed_length_mm = 0;
     double perimeter_length_mm = 0;
     double cover_length_mm = 0;
