@@ -33,7 +33,7 @@ TEST_CASE("a flat roof needs its area over twice the reach, which grows from lay
     const double both = bound.next(box, square(5 * mm), &roof, settings) / mm;
     CHECK(both == Approx(bound_of(1.2)).epsilon(0.002));
     // Where the shell comes near, what hung there is held up for good.
-    const Cavity narrow = make_cavity(44, square(2 * mm), settings);
+    const Cavity narrow = make_cavity(44, square(mm), settings);
     CHECK(bound.next(narrow, {}, &box, settings) == 0);
     CHECK(bound.next(box, {}, &narrow, settings) == 0);
 }

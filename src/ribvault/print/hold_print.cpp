@@ -166,6 +166,7 @@ private:
         return lanes;
     }
 
+    /// In the first half of the rounds dots as near to the tracks as can be; what these do not reach, and what sampling missed, in another way.
     void add_patches(const std::vector<OpenStretch>& open, int round) {
         const std::size_t before = patches_.size();
         std::vector<Segment> loops;
