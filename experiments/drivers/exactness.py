@@ -10,15 +10,16 @@ def build(lab):
     stages = ["interval", "rational", "algebraic"]
     table = Table("exactness", "Every layer of every run of ribvault in the experiments above",
                   [("experiment", ""), ("runs", "d"), ("refused", "d"), ("layers", "d"), ("proved", "d"), ("refuted", "d"), ("with external overhang", "d"),
-                   *((f"decided by {s}", "d") for s in stages)])
+                   *((f"decided by {s}", "d") for s in stages), ("what", "")])
     seen = set()
     for name in [n for n in NAMES if n not in ("exactness", "solids")] + ["solids"]:
         runs = [r for r in wanted(lab, name) if r.kind == "generate" and r not in seen]
         seen.update(runs)
         layers, proved = (sum(lab.values(runs, p)) for p in ("totals.layers", "verdict.layers_proved"))
         table.add(name, len(runs), sum(1 for r in runs if lab.why(r)), layers, proved, layers - proved, sum(lab.values(runs, "verdict.external_layers")),
-                  *(sum(lab.values(runs, f"verdict.stages.{s}")) for s in stages))
-    table.add("all", *(sum(row[k] for row in table.rows) for k in range(1, len(table.columns))))
+                  *(sum(lab.values(runs, f"verdict.stages.{s}")) for s in stages),
+                  "" if runs else "G-code of several programs, judged by `ribvault verify`: its own table")
+    table.add("all", *(sum(row[k] for row in table.rows) for k in range(1, len(table.columns) - 1)))
 
     doubles = Table("exactness_doubles", "The same checks in doubles: layers as generated, and 10 nm on either side of the threshold",
                     [("model", ""), ("layers", "d"), ("false alarms", "d"), ("missed", "d"), ("thresholds tried", "d"), ("false alarms there", "d"),
