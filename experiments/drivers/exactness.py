@@ -13,12 +13,13 @@ def build(lab):
                    *((f"decided by {s}", "d") for s in stages), ("what", "")])
     seen = set()
     for name in [n for n in NAMES if n not in ("exactness", "solids")] + ["solids"]:
-        runs = [r for r in wanted(lab, name) if r.kind == "generate" and r not in seen]
+        all_runs = [r for r in wanted(lab, name) if r.kind == "generate"]
+        runs = [r for r in all_runs if r not in seen]
         seen.update(runs)
         layers, proved = (sum(lab.values(runs, p)) for p in ("totals.layers", "verdict.layers_proved"))
         table.add(name, len(runs), sum(1 for r in runs if lab.why(r)), layers, proved, layers - proved, sum(lab.values(runs, "verdict.external_layers")),
                   *(sum(lab.values(runs, f"verdict.stages.{s}")) for s in stages),
-                  "" if runs else "G-code of several programs, judged by `ribvault verify`: its own table")
+                  "" if all_runs else "G-code of several programs, judged by `ribvault verify`: its own table")
     table.add("all", *(sum(row[k] for row in table.rows) for k in range(1, len(table.columns) - 1)))
 
     doubles = Table("exactness_doubles", "The same checks in doubles: layers as generated, and 10 nm on either side of the threshold",

@@ -1,12 +1,12 @@
 #include "ribvault/pipeline/choose_supports.hpp"
 
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 
 #include "ribvault/error.hpp"
 #include "ribvault/pipeline/layer_front.hpp"
+#include "ribvault/pipeline/thread_limit.hpp"
 
 namespace ribvault {
 namespace {

@@ -1,7 +1,5 @@
 #include "ribvault/pipeline/layer_front.hpp"
 
-#include <oneapi/tbb/global_control.h>
-
 #include <boost/graph/copy.hpp>
 
 #include "ribvault/print/shell_paths.hpp"
@@ -38,11 +36,6 @@ std::shared_ptr<const std::vector<Segment>> tracks_of(const SupportForest& fores
     for (auto [v, end] = vertices(forest); v != end; ++v)
         if (out_degree(*v, forest) == 0) tracks->push_back({forest[*v].at, forest[*v].at});
     return tracks;
-}
-
-std::size_t thread_limit(int threads) {
-    if (threads > 0) return static_cast<std::size_t>(threads);
-    return oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::max_allowed_parallelism);
 }
 
 LayerFront::LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks, const std::function<bool()>& stop, const Box& frame)

@@ -80,9 +80,6 @@ LayerSupports next_supports(SupportForest& above, const Token& token, const Sett
 /// S_i as segments; dots as segments of no length.
 std::shared_ptr<const std::vector<Segment>> tracks_of(const SupportForest& forest);
 
-/// How many threads `threads` are (0: all that TBB allows).
-std::size_t thread_limit(int threads);
-
 /// Makes tokens of layers, from the top. One use: filter() is the head of one pipeline.
 class LayerFront {
 public:

@@ -1,9 +1,8 @@
 #include "ribvault/pipeline/sweep_layers.hpp"
 
-#include <oneapi/tbb/global_control.h>
-
 #include "ribvault/error.hpp"
 #include "ribvault/pipeline/layer_front.hpp"
+#include "ribvault/pipeline/thread_limit.hpp"
 #include "ribvault/print/wide_walls.hpp"
 #include "ribvault/vault/length_bound.hpp"
 

@@ -1,6 +1,5 @@
 #include "ribvault/pipeline/verify_print.hpp"
 
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "ribvault/error.hpp"
 #include "ribvault/output_file.hpp"
 #include "ribvault/pipeline/judge_layer.hpp"
+#include "ribvault/pipeline/thread_limit.hpp"
 #include "ribvault/print/printed_layers.hpp"
 #include "ribvault/print/read_gcode.hpp"
 #include "ribvault/report/print_page.hpp"
@@ -159,8 +159,7 @@ private:
 
     void judge() {
         namespace tbb = oneapi::tbb;
-        const auto limit = job_.threads > 0 ? static_cast<std::size_t>(job_.threads)
-                                            : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+        const std::size_t limit = thread_limit(job_.threads);
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
         report_.threads = static_cast<int>(limit);
         const LayerRules rules{radius_, job_.longest_bridge, report_.min_area_mm2, judged_, job_.inside};

@@ -38,8 +38,7 @@ SupportForest without_dots(const SupportForest& forest) {
 class Holder {
 public:
     Holder(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Cavity* beside, const Settings& settings)
-        : shell_(std::move(shell)), forest_(forest), above_(above), settings_(settings), beside_(beside) {
-        if (settings.gaps == Gaps::proved) forest_ = without_dots(forest_);
+        : shell_(std::move(shell)), forest_(settings.gaps == Gaps::proved ? without_dots(forest) : forest), above_(above), settings_(settings), beside_(beside) {
         if (settings.gaps == Gaps::none)
             for (auto [e, end] = edges(forest_); e != end; ++e) forest_[*e].to_junction = true;
     }
@@ -166,6 +165,15 @@ private:
         return lanes;
     }
 
+    /// The dot under a stretch that is nearest to what is there, where that may be asked for: not with a removal gap.
+    std::optional<PlacedDot> place(const OpenStretch& stretch) const {
+        if (beside_ && beside_->walls) return std::nullopt;
+        const PrintedTrack& track = above_->tracks[stretch.track];
+        const Lane whole{place_of(track, {0, 0, HUGE_VAL}), round_to_lattice(track.width.get_d() * units_per_mm)};
+        return place_dot({whole, stretch.from_mm * units_per_mm, stretch.to_mm * units_per_mm}, material_near(place_of(track, stretch)), settings_.nozzle,
+                         settings_.support_radius);
+    }
+
     /// In the first half of the rounds dots as near to the tracks as can be; what these do not reach, and what sampling missed, in another way.
     void add_patches(const std::vector<OpenStretch>& open, int round) {
         const std::size_t before = patches_.size();
@@ -184,20 +192,14 @@ private:
         };
         for (const OpenStretch& stretch : open) {
             const Segment hanging = place_of(above_->tracks[stretch.track], stretch);
-            std::optional<PlacedDot> placed;
-            if (round < rounds / 2 && !(beside_ && beside_->walls)) {
-                const PrintedTrack& track = above_->tracks[stretch.track];
-                const Segment whole = place_of(track, {0, 0, HUGE_VAL});
-                placed = place_dot({{whole, round_to_lattice(track.width.get_d() * units_per_mm)}, stretch.from_mm * units_per_mm, stretch.to_mm * units_per_mm},
-                                   material_near(hanging), settings_.nozzle, settings_.support_radius);
-                if (placed && !placed->needed) continue;
-            }
+            const std::optional<PlacedDot> placed = round < rounds / 2 ? place(stretch) : std::nullopt;
+            if (placed && !placed->needed) continue;
             const bool held = !placed && std::any_of(patches_.begin() + static_cast<std::ptrdiff_t>(before), patches_.end(), [&](const Patch& patch) {
                 const Segment& p = patch.segment;
                 return compare_distance(hanging.a, p, step) <= 0 && compare_distance(hanging.b, p, step) <= 0;
             });
             if (held) continue;
-            Segment s = place_of(above_->tracks[stretch.track], stretch);
+            Segment s = hanging;
             // Tried before without success: now just below it.
             const bool again = std::find(tried_.begin(), tried_.end(), s.a) != tried_.end();
             tried_.push_back(s.a);
@@ -223,9 +225,8 @@ private:
             } else if (beside_ && patch_object(hanging)) {
                 continue;
             } else if (outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) {
-                const Segment whole = place_of(above_->tracks[stretch.track], stretch);
-                const Point middle{(whole.a.x + whole.b.x) / 2, (whole.a.y + whole.b.y) / 2};
-                const Point inside = outline.locate(whole.a) != Side::outside ? whole.a : outline.locate(whole.b) != Side::outside ? whole.b : middle;
+                const Point middle{(hanging.a.x + hanging.b.x) / 2, (hanging.a.y + hanging.b.y) / 2};
+                const Point inside = outline.locate(hanging.a) != Side::outside ? hanging.a : outline.locate(hanging.b) != Side::outside ? hanging.b : middle;
                 if (outline.locate(inside) == Side::outside) continue;
                 s = {inside, inside};
             }

@@ -1,8 +1,10 @@
 #include "ribvault/vault/shrink_supports.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
+#include "ribvault/exact/real_vector.hpp"
 #include "ribvault/vault/free_trees.hpp"
 #include "ribvault/vault/segment_grid.hpp"
 #include "ribvault/vault/wall_contacts.hpp"
@@ -11,17 +13,6 @@ namespace ribvault {
 namespace {
 
 constexpr int sweeps = 10;
-
-struct Vec {
-    double x = 0, y = 0;
-};
-Vec vec(Point p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
-Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y}; }
-Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y}; }
-Vec operator*(double t, Vec a) { return {t * a.x, t * a.y}; }
-double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y; }
-double norm(Vec a) { return std::sqrt(dot(a, a)); }
-Point rounded(Vec a) { return {round_to_lattice(a.x), round_to_lattice(a.y)}; }
 
 class Shrinker {
 public:
