@@ -80,7 +80,7 @@ TEST_CASE("a dot holds up what hangs, hardly farther from the tracks than it mus
     CHECK(placed > 100);
     CHECK(50 * held >= 49 * placed);  // what lies between samples may be missed; the judgement after it sees that
     CHECK(ways >= least - 2000 * placed);
-    CHECK(ways < least + 3000 * placed);
+    CHECK(ways < least + 1400 * placed);  // 11 um on average; 16 where material that is not quite out of reach is overlooked
 }
 
 TEST_CASE("no dot where there is nothing near to join it to, or where what is there will do") {
