@@ -19,14 +19,25 @@ function contours(region, path = new Path2D()) {
 
 /** A layer of a layers file as paths, made once. */
 function vaultPaths(run, k) {
-  const s = run.shapes(k), tracks = new Path2D(), patches = new Path2D(), v = s.vertices, dot = 1e-4;
+  const s = run.shapes(k), tracks = new Path2D(), patches = new Path2D(), walls = new Map(), v = s.vertices, dot = 1e-4;
+  const wall = a => {
+    const width = run.wallWidth(s, a);
+    if (!walls.has(width)) walls.set(width, new Path2D());
+    return walls.get(width);
+  };
   for (let e = 0; e < s.edges.length; e += 2) {
     const a = 2 * s.edges[e], b = 2 * s.edges[e + 1];
-    tracks.moveTo(v[a], v[a + 1]); tracks.lineTo(v[b], v[b + 1]);
+    const path = wall(s.edges[e]);
+    path.moveTo(v[a], v[a + 1]); path.lineTo(v[b], v[b + 1]);
   }
-  for (const d of run.marks(k).dots) { tracks.moveTo(v[2 * d], v[2 * d + 1]); tracks.lineTo(v[2 * d] + dot, v[2 * d + 1]); }
+  for (const d of run.marks(k).dots) {
+    const path = wall(d);
+    path.moveTo(v[2 * d], v[2 * d + 1]); path.lineTo(v[2 * d] + dot, v[2 * d + 1]);
+  }
+  for (const path of walls.values()) tracks.addPath(path);
   for (let p = 0; p < s.patches.length; p += 4) { patches.moveTo(s.patches[p], s.patches[p + 1]); patches.lineTo(s.patches[p + 2] + dot, s.patches[p + 3]); }
-  return { shell: contours(s.cavity, contours(s.slice)), tracks, patches, unsupported: contours(s.unsupported) };
+  const cavity = contours(s.cavity), shell = contours(s.cavity, contours(s.slice));
+  return { shell, cavity, walls, tracks, patches, unsupported: contours(s.unsupported) };
 }
 
 /** Lines by width, those that are judged apart. */
@@ -102,7 +113,12 @@ class LayerView {
     g.fillStyle = colour("shell"); g.fill(p.shell, "evenodd");
     stroke(p.shell, "edge", 0.8 * pixel);
     g.globalAlpha = 0.45; g.fillStyle = colour("hang"); g.fill(p.unsupported); g.globalAlpha = 1;
-    stroke(p.tracks, "track", Math.max(run.nozzle, 2.2 * pixel), 0.9);
+    for (const [width, path] of p.walls) {
+      g.save();
+      if (width > run.nozzle) g.clip(p.cavity, "evenodd");  // tracks side by side end there; ends so wide would reach out of the shell
+      stroke(path, "track", Math.max(width, 2.2 * pixel), 0.9);
+      g.restore();
+    }
     stroke(p.patches, "patch", Math.max(run.nozzle, 2.5 * pixel), 0.8);
     stroke(p.unsupported, "hang", 1.5 * pixel);
     stroke(p.tracks, "line", Math.max(0.05, pixel));

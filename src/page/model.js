@@ -38,16 +38,18 @@ function farthest(points, from) {
   return best;
 }
 
-/** Branch-free chains of a support forest as x, y pairs; dots are chains of one point. */
-function chainsOf(shapes) {
+/** Branch-free chains of a support forest as lines of x, y pairs with their widths; dots are lines of one point. */
+function chainsOf(run, shapes) {
   const { degree, next } = forestOf(shapes), v = shapes.vertices, chains = [];
+  const points = chain => Float32Array.from(chain.flatMap(i => [v[2 * i], v[2 * i + 1]]));
+  const add = chain => chains.push({ points: points(chain), width: run.wallWidth(shapes, chain[0]) });
   for (let a = 0; a < degree.length; ++a) {
     if (degree[a] === 2) continue;
-    if (degree[a] === 0) chains.push(Float32Array.of(v[2 * a], v[2 * a + 1]));
+    if (degree[a] === 0) add([a]);
     for (const b of next[a]) {
       const chain = [a, b];
       for (let last = b; degree[last] === 2; last = chain[chain.length - 1]) chain.push(next[last][0] === chain[chain.length - 2] ? next[last][1] : next[last][0]);
-      if (chain[chain.length - 1] > a) chains.push(Float32Array.from(chain.flatMap(i => [v[2 * i], v[2 * i + 1]])));
+      if (chain[chain.length - 1] > a) add(chain);
     }
   }
   return chains;
@@ -66,7 +68,7 @@ function groupsOf(count, most) {
 function partsOf(run, k) {
   if (run.kind === "layers") {
     const s = shapesFrom(run.all[k].geometry);
-    return { shell: [...s.slice, ...s.cavity.map(reversed)], walls: chainsOf(s).map(points => ({ points, width: run.nozzle })), skin: [] };
+    return { shell: [...s.slice, ...s.cavity.map(reversed)], walls: chainsOf(run, s), skin: [] };
   }
   const inner = new Set(["infill", "support"]), walls = [], skin = [];
   for (const e of run.entries[k]) for (const l of linesFrom(run.all[e].geometry)) (inner.has(run.features[l.feature].kind) ? walls : skin).push(l);

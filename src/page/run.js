@@ -52,6 +52,7 @@ class VaultRun {
     this.count = all.length;
     this.name = header.input.path.split(/[\\/]/).pop();
     this.nozzle = s.nozzle_mm;
+    this.wideWall = s.nozzle_mm * (s.wall_lines || 1);  // layers files from before --wall-lines do not name it
     this.rho = s.support_radius_mm;
     this.good = header.verdict.proved && header.verdict.print.proved;
     this.shapes = remember(40, k => shapesFrom(all[k].geometry));
@@ -60,6 +61,8 @@ class VaultRun {
     this.box = boxOf(k => this.shapes(k).slice, this.count);
   }
   numbers(k) { return this.all[k].numbers; }
+  /** How wide the wall through vertex v is printed, mm; as wall_width in vault/wall_stability.hpp. */
+  wallWidth(shapes, v) { return shapes.wide[v] ? this.wideWall : this.nozzle; }
   top(k) { return this.tops[k]; }
   bottom(k) { return k === 0 ? 0 : this.tops[k - 1]; }
   /** Something hangs: inside (then the layer is not proved) or outside. */

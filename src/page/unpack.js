@@ -39,13 +39,16 @@ function records(bytes) {
   return all;
 }
 
-/** Geometry of a layer of a layers file. Regions are lists of contours; `edges` holds pairs of vertices. */
+/** Geometry of a layer of a layers file. Regions are lists of contours; `edges` holds pairs of vertices; `wide`, per
+ *  vertex: its tree is printed with several tracks side by side. */
 function shapesFrom(geometry) {
   const in_ = new Unpacker(geometry);
   const slice = in_.region(), cavity = in_.region(), vertices = in_.points(in_.natural()), roots = in_.rising(in_.natural());
   const count = in_.natural(), edges = new Uint32Array(2 * count);
   for (let k = 0, a = 0; k < count; ++k) { a += in_.whole(); edges[2 * k] = a; edges[2 * k + 1] = a + in_.whole(); }
-  return { slice, cavity, vertices, roots, edges, unsupported: in_.region(), patches: in_.points(2 * in_.natural()) };
+  const unsupported = in_.region(), patches = in_.points(2 * in_.natural()), wide = new Uint8Array(vertices.length / 2);
+  if (!in_.done) for (const v of in_.rising(in_.natural())) wide[v] = 1;
+  return { slice, cavity, vertices, roots, edges, unsupported, patches, wide };
 }
 
 /** Geometry of a printed layer: [{feature, width in mm, points}]. */

@@ -48,7 +48,9 @@ function runWords(run) {
   if (run.kind === "gcode") return run.facts.words;
   const s = run.header.settings, v = run.header.verdict.external_overhangs.length;
   const how = s.propagation === "shrink" ? "thrifty" : s.straighten ? "straightened" : "not straightened";
-  return `Layers of ${s.layer_height_mm} mm, tracks of ${s.nozzle_mm} mm, ρ = ${s.support_radius_mm} mm; supports ${how}, gaps ${s.gaps}, seed ${s.seed}.` +
+  const wide = s.wall_lines > 1 ? `, ${s.wall_lines} side by side in long or tall walls` : "";
+  return `Layers of ${s.layer_height_mm} mm, tracks of ${s.nozzle_mm} mm${wide}, ρ = ${s.support_radius_mm} mm; ` +
+    `supports ${how}, gaps ${s.gaps}, seed ${s.seed}.` +
     (v > 0 ? ` The outside overhangs on ${many(v, "layer")}, which no internal support can hold.` : "");
 }
 
@@ -68,7 +70,9 @@ function layerWords(run, k) {
   }
   const n = run.numbers(k), m = run.marks(k), s = run.shapes(k);
   const places = s.unsupported.filter(c => areaOf([c]) > 0).length;
-  const supports = n.trees === 0 ? "No supports on this layer." : `${many(n.trees, "support tree")} with ${fixed(n.support_length_mm, 1)} mm: ${many(m.roots.length, "root")}, ` +
+  const wide = n.wide_trees > 0 ? `, ${n.wide_trees} of them ${+run.wideWall.toFixed(3)} mm wide,` : "";
+  const supports = n.trees === 0 ? "No supports on this layer." :
+    `${many(n.trees, "support tree")}${wide} with ${fixed(n.support_length_mm, 1)} mm: ${many(m.roots.length, "root")}, ` +
     `${many(m.junctions.length, "junction")}, ${many(m.tips.length, "tip")}${m.dots.length ? ", " + many(m.dots.length, "dot") : ""}.`;
   const grown = places === 0 ? "Nothing new had to be held up." : `Newly supported for the layer above: ${many(places, "place")}, at most ${fixed(run.newArea(k), 2)} mm².`;
   const proof = run.refuted(k) ? "Not proved: something inside has no material within ρ below." : k === 0 ? "The layer lies on the bed." : `Proved over layer ${k - 1}, as geometry and as printed.`;

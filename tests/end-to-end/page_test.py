@@ -1,5 +1,6 @@
 """The run page in a browser: what it shows is what the report says. PROGRAM from RIBVAULT; screenshots go to the folder SCREENSHOTS."""
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -251,6 +252,41 @@ class Pages(unittest.TestCase):
         self.assertIn("No supports on this layer", self.text("#said"))
         self.browser.settle()
         self.at_end()
+
+    def test_walls_of_several_tracks_are_drawn_wide(self):
+        generate(self.folder, CUBE, "--wall-lines", "2", "--wall-lines-longer", "3", "--layers", "wide.layers", "--html", "wide.html")
+        header, *layers = map(json.loads, (self.folder / "wide.layers").read_text().splitlines())
+        # The same file without what is new in it, as programs before --wall-lines wrote it.
+        old = [{name: value for name, value in layer.items() if name not in ("wide", "wide_trees")} for layer in layers]
+        del header["settings"]["wall_lines"]
+        (self.folder / "old.layers").write_text("".join(json.dumps(line) + "\n" for line in (header, *old)))
+        self.assertEqual(make_page(self.folder, "old.layers", "-o", "old.html").returncode, 0)
+
+        def longest(layer):
+            """Length and ends of the longest piece of wide wall."""
+            at, wide = layer["vertices"], set(layer.get("wide", []))
+            return max([(math.dist(at[v], at[w]), at[v], at[w]) for v, w in layer["edges"] if v in wide] or [(0, None, None)])
+
+        k = max((k for k, layer in enumerate(layers) if not layer["unsupported"]), key=lambda k: longest(layers[k])[0])
+        length, a, b = longest(layers[k])
+        self.assertGreater(length, 2)
+        middle, aside = [(p + q) / 2 for p, q in zip(a, b)], [(a[1] - b[1]) / length, (b[0] - a[0]) / length]
+        pixels = f"""(() => {{ const v = page.drawings[0], [x, y] = {middle}, [dx, dy] = {aside};
+          v.go(x, y); v.marked = null; v.paint();
+          const [ox, oy] = v.origin(), s = v.scale, r = v.canvas.width / v.canvas.clientWidth, g = v.canvas.getContext("2d");
+          const picture = g.getImageData(0, 0, v.canvas.width, v.canvas.height), at = (px, py) => 4 * (Math.round(r * py) * picture.width + Math.round(r * px));
+          const pixel = (px, py) => [...picture.data.slice(at(px, py), at(px, py) + 3)];
+          return [0.12, 0.3, 0.5].map(d => pixel(ox + s * (x + d * dx), oy - s * (y + d * dy))); }})()"""
+        for name, wide in (("wide.html", set(layers[k]["wide"])), ("old.html", set())):
+            self.open(name, f"#layer={k}")
+            self.assertEqual(self.browser.run(f"[...page.runs[0].shapes({k}).wide].flatMap((w, v) => w ? [v] : [])"), sorted(wide), name)
+            near, beside, off = self.browser.run(pixels)
+            self.assertEqual(beside, near if wide else off, name)
+            self.assertNotEqual(near, off, name)
+            self.assertEqual(0.8 in self.browser.run(f"partsOf(page.runs[0], {k}).walls.map(w => w.width)"), bool(wide), name)
+            self.assertEqual("of them 0.8 mm wide" in self.text("#said"), bool(wide), name)
+            self.browser.screenshot(SCREENSHOTS / (name[:-5] + "_walls.png"))
+            self.at_end()
 
     def test_without_webgl_the_drawing_is_there(self):
         with browser.Browser(FOUND, flags=["--disable-3d-apis"]) as plain:

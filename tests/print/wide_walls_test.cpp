@@ -5,6 +5,7 @@
 
 #include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/print/support_paths.hpp"
+#include "ribvault/vault/wall_stability.hpp"
 
 using namespace ribvault;
 
@@ -51,6 +52,21 @@ TEST_CASE("two lines are one path around the tree, half a width from it, from sh
 TEST_CASE("three lines are the tree and a path around it, four are two paths around it") {
     CHECK(printed(tree(true), 3).size() == 3);  // trunk, branch, one around
     CHECK(printed(tree(true), 4).size() == 2);
+}
+
+TEST_CASE("side by side the tracks are as wide as pictures draw the wall") {
+    for (const int lines : {1, 2, 3, 4, 5})
+        for (const bool wide : {false, true}) {
+            const SupportForest forest = tree(wide);
+            const NearestSegment walls({{{0, 10 * mm}, {10 * mm, 10 * mm}}, {{5 * mm, 10 * mm}, {5 * mm, 15 * mm}}});
+            double farthest = 0;
+            for (const ToolPath& path : printed(forest, lines))
+                for (const Point p : path.points)
+                    farthest = std::max(farthest, std::sqrt(walls.nearest(p).distance.value()) + 0.5 * static_cast<double>(path.width));
+            Settings settings;
+            settings.wall_lines = lines;
+            CHECK(farthest == Approx(0.5 * static_cast<double>(wall_width(forest[0], settings))).margin(101));
+        }
 }
 
 TEST_CASE("a tree that is not wide has one line, whatever the others have") {

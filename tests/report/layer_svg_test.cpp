@@ -217,6 +217,44 @@ TEST_CASE("a dot is drawn as a line of no length with round ends, at the track's
         svg, Catch::Contains("stroke-linecap=\"round\" stroke-linejoin=\"round\" stroke-width=\".6\" d=\"M.25 2h0\""));
 }
 
+TEST_CASE("walls of several tracks are drawn as wide as these together, as far as the cavity goes") {
+    SupportForest forest(5);
+    forest[0] = {.at = {mm, 5 * mm}, .root = true, .wide = true}, forest[1] = {.at = {4 * mm, 9 * mm}, .wide = true};
+    forest[2] = {.at = {19 * mm, 5 * mm}, .root = true}, forest[3] = {.at = {16 * mm, 5 * mm}};
+    forest[4] = {.at = {10 * mm, 15 * mm}, .root = true, .wide = true};
+    add_edge(0, 1, forest), add_edge(2, 3, forest);
+    Slice slice;
+    slice.layer = 7;
+    slice.rounded = {square(0, 20 * mm)};
+    const Region cavity{square(mm, 19 * mm)};
+    SupportForest unmarked = forest;
+    for (auto [v, end] = vertices(unmarked); v != end; ++v) unmarked[*v].wide = false;
+    Settings settings;
+    CHECK(layer_svg(slice, cavity, forest, {}, settings) == layer_svg(slice, cavity, unmarked, {}, settings));
+    for (const int lines : {2, 3}) {
+        settings.wall_lines = lines;
+        const std::string svg = layer_svg(slice, cavity, forest, {}, settings);
+        const Picture picture(svg);
+        std::map<std::string, pugi::xml_node> by_width;  // without the legend's, which is the last
+        for (const pugi::xml_node path : picture.document.child("svg").children("path"))
+            if (path.attribute("stroke").value() == std::string(tracks)) by_width.emplace(path.attribute("stroke-width").value(), path);
+        REQUIRE(by_width.count(".4") == 1);
+        REQUIRE(by_width.count(lines == 2 ? ".8" : "1.2") == 1);
+        const pugi::xml_node narrow = by_width[".4"], wide = by_width[lines == 2 ? ".8" : "1.2"];
+        CHECK(total_length(read_path(narrow.attribute("d").value())) == Approx(3));
+        CHECK_FALSE(narrow.attribute("clip-path"));
+        CHECK(read_path(wide.attribute("d").value()).size() == 2);  // the wall and the dot
+        CHECK(total_length(read_path(wide.attribute("d").value())) == Approx(5));
+        const pugi::xml_node clip = picture.document.child("svg").child("clipPath");
+        CHECK(wide.attribute("clip-path").value() == "url(#" + std::string(clip.attribute("id").value()) + ")");
+        CHECK(clip.child("path").attribute("d").value() == region_data(cavity));
+        CHECK(total_length(picture.first(centre)) == Approx(8));
+        slice.layer = 8;  // a contact sheet holds both
+        CHECK_THAT(layer_svg(slice, cavity, forest, {}, settings), !Catch::Contains(clip.attribute("id").value()));
+        slice.layer = 7;
+    }
+}
+
 TEST_CASE("everything lies inside the frame, and the caption names layer, height and length") {
     Slice slice;
     slice.layer = 3;

@@ -14,15 +14,16 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr Unit um = units_per_mm / 1000;
+constexpr Unit mm = units_per_mm, um = mm / 1000;
 
-/// Two tracks that meet at a root, and a dot.
+/// Two tracks that meet at a root, in a wide tree, and a dot.
 LayerShapes sample_shapes() {
     LayerShapes s;
     s.slice = {{{0, 0}, {20000 * um, 0}, {20000 * um, 10000 * um}, {-1 * um, 10000 * um}}};
     s.cavity = {{{400 * um, 400 * um}, {19600 * um, 400 * um}, {19600 * um, 9600 * um}}};
     s.vertices = {{{400 * um, 401 * um}, true}, {{1500 * um, 2000 * um}, false}, {{-123456 * um, 7 * um}, false}, {{3 * um, 3 * um}, true}};
     s.edges = {{0, 1}, {2, 0}};
+    for (std::size_t v = 0; v < 3; ++v) s.vertices[v].wide = true;
     s.unsupported = {{{10 * um, 10 * um}, {20 * um, 10 * um}, {20 * um, 20 * um}}, {}};
     s.patches = {{{5 * um, 6 * um}, {7 * um, 8 * um}}, {{9 * um, 9 * um}, {9 * um, 9 * um}}};
     return s;
@@ -110,9 +111,42 @@ TEST_CASE("a layers file is read as it was written") {
         for (std::size_t v = 0; v < wanted.vertices.size(); ++v) {
             CHECK(layer.shapes.vertices[v].at == wanted.vertices[v].at);
             CHECK(layer.shapes.vertices[v].root == wanted.vertices[v].root);
+            CHECK(layer.shapes.vertices[v].wide == wanted.vertices[v].wide);
         }
     }
     CHECK_FALSE(file.next(layer));
+}
+
+TEST_CASE("shapes know which trees are wide") {
+    SupportForest forest(4);
+    forest[0] = {.at = {0, 0}, .root = true}, forest[1] = {.at = {mm, 0}};
+    forest[2] = {.at = {0, mm}, .root = true, .wide = true}, forest[3] = {.at = {mm, mm}, .wide = true};
+    add_edge(0, 1, forest), add_edge(2, 3, forest);
+    const Json json = Json::parse("{" + shapes_json(shapes_of({}, {}, forest, {}, {})) + "}");
+    CHECK(json["wide"] == Json{2, 3});
+    CHECK(json["roots"] == Json{0, 2});
+}
+
+TEST_CASE("where no tree is wide nothing is said of it, and files that say nothing of it are read") {
+    LayerShapes shapes = sample_shapes();
+    const std::string packed = packed_shapes(shapes);
+    for (SupportVertex& v : shapes.vertices) v.wide = false;
+    CHECK_THAT(shapes_json(shapes), !Contains("wide"));
+    const std::string narrow = packed_shapes(shapes);
+    CHECK(packed == narrow + std::string("\3\0\2\2", 4));  // three vertices: 0, 1 more, 1 more
+    std::vector<std::string> lines = sample_lines();
+    lines[0] = without(lines[0], "/settings/wall_lines");
+    for (std::size_t k = 1; k < lines.size(); ++k) lines[k] = without(lines[k], "/wide");
+    for (std::size_t k = 1; k < lines.size(); ++k)
+        CHECK(test::violations(Json::parse(lines[k]), "layers-file.schema.json") == std::vector<std::string>{});
+    const test::ScratchFolder folder;
+    {
+        std::ofstream out(folder / "a.layers", std::ios::binary);
+        for (const std::string& line : lines) out << line << '\n';
+    }
+    LayersFile file(folder / "a.layers");
+    LayersFile::Layer layer;
+    while (file.next(layer)) CHECK(packed_shapes(layer.shapes) == narrow);
 }
 
 TEST_CASE("shapes are rounded to the nearest micrometre, on both sides of zero") {
@@ -161,6 +195,10 @@ TEST_CASE("a layers file that is not whole is refused by name") {
     CHECK_THAT(changed(2, with(good[2], "/print/place_mm", "here")), Contains("\"print.place_mm.0\""));
     CHECK_THAT(changed(2, with(good[2], "/edges/0/1", 4)), Contains("there is no vertex 4"));
     CHECK_THAT(changed(2, with(good[2], "/roots/0", -1)), Contains("there is no vertex -1"));
+    CHECK_THAT(changed(2, with(good[2], "/wide/0", 4)), Contains("\"wide\": there is no vertex 4"));
+    CHECK_THAT(changed(2, with(good[2], "/wide", "rubbish")), Contains("line 3 has no valid \"wide\": expected a list"));
+    CHECK_THAT(changed(0, with(good[0], "/settings/wall_lines", "two")),
+               Contains("has no valid \"settings.wall_lines\": expected a whole number"));
     CHECK_THAT(changed(2, with(good[2], "/slice/0/1/0", 1e300)), Contains("\"slice\""));
     CHECK_THAT(changed(2, with(good[2], "/slice/0/1", Json::array({1}))), Contains("\"slice\": expected pairs"));
     CHECK_THAT(complaint({}), Contains("is empty"));

@@ -149,6 +149,23 @@ TEST_CASE("a 3MF is closed by its vertex numbers: each edge is used once in eith
     }
 }
 
+TEST_CASE("a wall of several tracks is as wide as these together") {
+    const ScratchFolder folder;
+    SupportForest forest = star();
+    for (auto [v, end] = vertices(forest); v != end; ++v) forest[*v].wide = true;
+    const auto far_root = add_vertex({.at = {0, -20 * mm}, .root = true}, forest), far_tip = add_vertex({.at = {0, -24 * mm}}, forest);
+    add_edge(far_root, far_tip, forest);
+    for (const int lines : {1, 2, 3}) {
+        Settings settings;
+        settings.wall_lines = lines;
+        std::string facets;
+        append_walls(forest, 0, 20000, settings, facets);
+        const MeshFacts facts = examine(read_mesh(write(folder / "walls.stl", stl(facets))), Placement());
+        CHECK(facts.closed());
+        CHECK(facts.volume_mm3 == Approx(((10 + 7 + 5) * 0.4 * lines + 4 * 0.4) * 0.2).epsilon(1e-4));
+    }
+}
+
 TEST_CASE("a segment without length is no wall") {
     SupportForest forest(3);
     forest[0] = {{mm, mm}, true}, forest[1] = {{mm, mm}, false}, forest[2] = {{2 * mm, mm}, true};

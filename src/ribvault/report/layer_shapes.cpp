@@ -45,11 +45,22 @@ void append_region(std::string& text, const Region& region) {
     append_list(text, region, [](std::string& t, const Contour& contour) { append_list(t, contour, append_point); });
 }
 
-std::vector<std::uint32_t> roots(const LayerShapes& shapes) {
+/// The vertices that are marked so, ascending.
+std::vector<std::uint32_t> marked(const LayerShapes& shapes, bool SupportVertex::*mark) {
     std::vector<std::uint32_t> found;
     for (std::uint32_t v = 0; v < shapes.vertices.size(); ++v)
-        if (shapes.vertices[v].root) found.push_back(v);
+        if (shapes.vertices[v].*mark) found.push_back(v);
     return found;
+}
+
+void append_indices(std::string& text, const std::vector<std::uint32_t>& indices) {
+    append_list(text, indices, [](std::string& t, std::uint32_t v) { t += std::to_string(v); });
+}
+
+void pack_indices(Packed& out, const std::vector<std::uint32_t>& indices) {
+    out.natural(indices.size());
+    std::int64_t before = 0;
+    for (const std::int64_t v : indices) out.whole(v - before), before = v;
 }
 
 }  // namespace
@@ -59,7 +70,10 @@ LayerShapes shapes_of(const Slice& slice, const Region& cavity, const SupportFor
     const Region once = unsupported.empty() ? Region() : clip(ClipperLib::ctUnion, unsupported, {});
     LayerShapes shapes{to_micrometre(slice.rounded), to_micrometre(cavity), {}, {}, to_micrometre(once), patches};
     for (Segment& s : shapes.patches) s = {to_micrometre(s.a), to_micrometre(s.b)};
-    for (auto [v, end] = vertices(forest); v != end; ++v) shapes.vertices.push_back({to_micrometre(forest[*v].at), forest[*v].root});
+    for (auto [v, end] = vertices(forest); v != end; ++v) {
+        const SupportVertex& s = forest[*v];
+        shapes.vertices.push_back({.at = to_micrometre(s.at), .root = s.root, .wide = s.wide});
+    }
     for (auto [e, end] = edges(forest); e != end; ++e)
         shapes.edges.push_back({static_cast<std::uint32_t>(source(*e, forest)), static_cast<std::uint32_t>(target(*e, forest))});
     return shapes;
@@ -73,7 +87,7 @@ std::string shapes_json(const LayerShapes& shapes) {
     text += ",\"vertices\":";
     append_list(text, shapes.vertices, [](std::string& t, const SupportVertex& v) { append_point(t, v.at); });
     text += ",\"roots\":";
-    append_list(text, roots(shapes), [](std::string& t, std::uint32_t v) { t += std::to_string(v); });
+    append_indices(text, marked(shapes, &SupportVertex::root));
     text += ",\"edges\":";
     append_list(text, shapes.edges, [](std::string& t, const std::array<std::uint32_t, 2>& e) {
         t += '[' + std::to_string(e[0]) + ',' + std::to_string(e[1]) + ']';
@@ -88,6 +102,10 @@ std::string shapes_json(const LayerShapes& shapes) {
         append_point(t, s.b);
         t += ']';
     });
+    if (const std::vector<std::uint32_t> wide = marked(shapes, &SupportVertex::wide); !wide.empty()) {
+        text += ",\"wide\":";
+        append_indices(text, wide);
+    }
     return text;
 }
 
@@ -97,12 +115,9 @@ std::string packed_shapes(const LayerShapes& shapes) {
     out.region(shapes.cavity);
     out.natural(shapes.vertices.size());
     for (const SupportVertex& v : shapes.vertices) out.point(v.at);
-    const std::vector<std::uint32_t> root = roots(shapes);
-    out.natural(root.size());
-    std::int64_t before = 0;
-    for (const std::int64_t v : root) out.whole(v - before), before = v;
+    pack_indices(out, marked(shapes, &SupportVertex::root));
     out.natural(shapes.edges.size());
-    before = 0;
+    std::int64_t before = 0;
     for (const auto& [a, b] : shapes.edges) {
         out.whole(a - before), out.whole(static_cast<std::int64_t>(b) - a);
         before = a;
@@ -110,6 +125,7 @@ std::string packed_shapes(const LayerShapes& shapes) {
     out.region(shapes.unsupported);
     out.natural(shapes.patches.size());
     for (const Segment& s : shapes.patches) out.point(s.a), out.point(s.b);
+    if (const std::vector<std::uint32_t> wide = marked(shapes, &SupportVertex::wide); !wide.empty()) pack_indices(out, wide);
     return out.bytes();
 }
 

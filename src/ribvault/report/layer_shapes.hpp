@@ -15,7 +15,7 @@ namespace ribvault {
 struct LayerShapes {
     Region slice;                        ///< O_i
     Region cavity;                       ///< C_i; the shell B_i is slice without cavity
-    std::vector<SupportVertex> vertices; ///< of S_i
+    std::vector<SupportVertex> vertices; ///< of S_i: place, root and wide
     std::vector<std::array<std::uint32_t, 2>> edges;  ///< of S_i: indices into vertices
     /// What of layer i + 1 detection (Section 4.2) found: all that neither the shell nor the walls copied from above hold up. Of a
     /// wall that is not held up along its whole length it is the whole track: more than needed, never less.
@@ -27,7 +27,8 @@ struct LayerShapes {
 LayerShapes shapes_of(const Slice& slice, const Region& cavity, const SupportForest& forest, const Region& unsupported,
                       const std::vector<Segment>& patches);
 
-/// The members "slice" to "patch_tracks" of a layers file's line (docs/layers-file.md), without braces; mm.
+/// The members "slice" to "patch_tracks" of a layers file's line (docs/layers-file.md), and "wide" where there are wide trees,
+/// without braces; mm.
 std::string shapes_json(const LayerShapes& shapes);
 
 /// The same as bytes for the run page (report/packed.hpp), rounded to 0.01 mm.

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <string_view>
 
 #include "ribvault/report/svg_path.hpp"
+#include "ribvault/vault/wall_stability.hpp"
 
 namespace ribvault {
 namespace {
@@ -27,6 +29,23 @@ void append_element(std::string& svg, std::string_view style, const std::string&
     svg.append("<path ").append(style);
     if (stroke_width > 0) svg.append(" stroke-width=\"").append(svg_number(stroke_width)).append("\"");
     svg.append(" d=\"").append(data).append("\"/>\n");
+}
+
+/// The walls, each in its width. A track's end reaches half its width over the shell; walls of several tracks would reach farther
+/// there, even out of the object, than what is printed of them, which is clipped to the cavity (print/wide_walls.hpp).
+void append_tracks(std::string& svg, const SupportForest& forest, const Region& cavity, const Settings& settings, int layer) {
+    std::set<Unit> widths;
+    for (auto [v, end] = vertices(forest); v != end; ++v) widths.insert(wall_width(forest[*v], settings));
+    for (const Unit width : widths) {
+        std::string style(track_style);
+        if (width > settings.nozzle) {
+            const std::string id = "cavity" + std::to_string(layer);  // a contact sheet holds several layers
+            svg.append("<clipPath id=\"" + id + "\"><path clip-rule=\"evenodd\" d=\"" + region_data(cavity) + "\"/></clipPath>\n");
+            style += " clip-path=\"url(#" + id + ")\"";
+        }
+        const auto drawn = [&](const SupportVertex& v) { return wall_width(v, settings) == width; };
+        append_element(svg, style, track_data(forest, drawn), to_mm(width));
+    }
 }
 
 struct Marks {
@@ -147,12 +166,11 @@ LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportF
         d.support_length_mm += length(forest[target(*e, forest)].at - forest[source(*e, forest)].at) / units_per_mm;
 
     const double nozzle = to_mm(settings.nozzle);
-    const std::string tracks = track_data(forest);
     const Marks marks = marks_of(forest, nozzle, d);
     append_element(d.marks, shell_style, region_data(slice.rounded) + region_data(cavity));
-    append_element(d.marks, track_style, tracks, nozzle);
+    append_tracks(d.marks, forest, cavity, settings, d.layer);
     append_element(d.marks, unsupported_style, region_data(unsupported));
-    append_element(d.marks, line_style, tracks);
+    append_element(d.marks, line_style, track_data(forest));
     append_element(d.marks, root_style, marks.roots, 0.6 * nozzle);
     append_element(d.marks, junction_style, marks.junctions, 0.8 * nozzle);
     append_element(d.marks, tip_style, marks.tips);

@@ -83,6 +83,11 @@ const Json& need(const Json& object, const Field& field) {
     return value;
 }
 
+/// A field that files from before --wall-lines do not have.
+void check_if_there(const Json& object, const Field& field) {
+    if (object.contains(Json::json_pointer(field.pointer))) need(object, field);
+}
+
 void check_numbers(const Json& layer) {
     for (const Field& field : layer_fields) need(layer, field);
     for (const std::string hole : {"/verdict/internal", "/verdict/external"})
@@ -140,10 +145,13 @@ LayerShapes shapes(const Json& layer) {
         list(p, "patch_tracks", 2);
         s.patches.push_back({point(p[0], "patch_tracks"), point(p[1], "patch_tracks")});
     }
+    check_if_there(layer, {"/wide", Kind::list});
+    if (layer.contains("wide"))
+        for (const Json& v : layer["wide"]) s.vertices[index(v, s.vertices.size(), "wide")].wide = true;
     return s;
 }
 
-constexpr const char* shape_names[] = {"slice", "cavity", "vertices", "roots", "edges", "unsupported", "patch_tracks"};
+constexpr const char* shape_names[] = {"slice", "cavity", "vertices", "roots", "edges", "unsupported", "patch_tracks", "wide"};
 
 Json parsed(const std::string& line) {
     Json object = Json::parse(line, nullptr, false);
@@ -171,6 +179,7 @@ LayersFile::LayersFile(std::filesystem::path file) : path_(std::move(file)), in_
         const Json header = parsed(header_);
         check_schema(header);
         for (const Field& field : header_fields) need(header, field);
+        check_if_there(header, {"/settings/wall_lines", Kind::natural});
         layer_count_ = header["totals"]["layers"].get<int>();
         if (layer_count_ == 0) throw Wrong{"says that there are no layers"};
     } catch (const Wrong& wrong) {

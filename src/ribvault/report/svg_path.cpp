@@ -98,10 +98,15 @@ void append_dot(std::string& data, Point at) {
 }
 
 std::string track_data(const SupportForest& forest) {
+    return track_data(forest, [](const SupportVertex&) { return true; });
+}
+
+std::string track_data(const SupportForest& forest, const std::function<bool(const SupportVertex&)>& drawn) {
     using Vertex = SupportForest::vertex_descriptor;
     std::string data;
     Pen pen(data);
     for (auto [v, end] = vertices(forest); v != end; ++v) {
+        if (!drawn(forest[*v])) continue;
         if (out_degree(*v, forest) == 0) append_dot(data, forest[*v].at);
         if (out_degree(*v, forest) == 2) continue;
         for (auto [n, last] = adjacent_vertices(*v, forest); n != last; ++n) {

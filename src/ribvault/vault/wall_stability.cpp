@@ -20,7 +20,7 @@ public:
     WallProfile(const SupportVertex& a, const SupportVertex& b, double root_a, double root_b, const Settings& settings)
         : a_(a.at), b_(b.at), l_(length(b.at - a.at)), root_a_(root_a), root_b_(root_b), height_a_(standing_height(a, settings)),
           height_b_(standing_height(b, settings)),
-          width_(static_cast<double>(settings.nozzle) * (a.wide ? settings.wall_lines : 1)) {}
+          width_(static_cast<double>(wall_width(a, settings))) {}
 
     SlenderPlace worst() const {
         const double peak = std::clamp((root_b_ + l_ - root_a_) / 2, 0.0, l_), slope = l_ > 0 ? (height_b_ - height_a_) / l_ : 0;
