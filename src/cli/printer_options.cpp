@@ -79,6 +79,8 @@ void add_printer(CLI::App* command, PrinterSettings& p) {
     group->add_option("--filament-diameter", p.filament_diameter, "mm")->capture_default_str();
     group->add_option("--temperature", p.nozzle_temperature, "nozzle, degrees C")->capture_default_str();
     group->add_option("--bed-temperature", p.bed_temperature, "degrees C")->capture_default_str();
+    group->add_option("--support-extruder", p.support_extruder, "tool that prints external supports; T0 prints all else")->capture_default_str();
+    group->add_option("--support-temperature", p.support_temperature, "of that tool, degrees C; 0: as --temperature")->capture_default_str();
     group->add_option("--fan", p.fan_percent, "from the second layer on, percent")->capture_default_str();
     group->add_option("--print-speed", p.print_speed, "perimeters and covers, mm/s")->capture_default_str();
     group->add_option("--support-speed", p.support_speed, "supports, mm/s")->capture_default_str();

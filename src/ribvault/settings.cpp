@@ -24,6 +24,10 @@ void Settings::check() const {
     within(max_gap, 0, 1000000, "--max-gap");
     within(support_gap, 0, 500000, "--support-gap");
     within(pillar_length, nozzle, 10000000, "--pillar-length");
+    within(brace, 0, 100000000, "--brace");
+    if (support_gap_layers < 0 || support_gap_layers > 100) refuse("--support-gap-layers must lie between 0 and 100");
+    if (support_gap_layers > 0 && support == Support::internal) refuse("--support-gap-layers is about external supports; give it with --support external or both");
+    if (bed_only && support == Support::internal) refuse("--bed-only is about external supports; give it with --support external or both");
     if (support_gap > 0 && support == Support::internal) refuse("--support-gap keeps external supports off the object; give it with --support external or both");
     if (pillars && support == Support::internal) refuse("--pillars is about external supports; give it with --support external or both");
     if (tries < 1 || tries > 1000) refuse("--tries must lie between 1 and 1000");

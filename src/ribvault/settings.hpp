@@ -50,6 +50,8 @@ struct Settings {
     Support support = Support::internal;
     /// Removal gap g in plane: no external track's edge comes nearer to the object. With 0 external walls may be rooted on it.
     Unit support_gap = 0;
+    int support_gap_layers = 0;   ///< so many layers between an external support and what it holds up are left empty
+    bool bed_only = false;        ///< external supports stand on the bed, nowhere on the object (pipeline/ways_to_bed.hpp)
     Unit pillar_length = 400000;  ///< track that is left of a tree that stands free, on every layer down to what it stands on
     bool pillars = false;  ///< external trees on the object stand free where that takes less track down to the bed (vault/free_trees.hpp)
     bool trim = false;  ///< new walls end as early as what they are there for allows (vault/trim_walls.hpp)
@@ -69,6 +71,7 @@ struct Settings {
     int wall_lines = 1;                ///< tracks side by side in walls that are longer or taller than the next two
     Unit wall_lines_longer = 1000000;  ///< from the root to the farthest tip
     Unit wall_lines_taller = 1000000;  ///< what of the wall stands on this layer
+    Unit brace = 0;  ///< trees that reach farther from their only root get a second one (vault/brace_trees.hpp); 0: none
 
     /// First pass of detection: spacing of the candidate points, d / 4. The paper's pixel is 0.05 mm; what lies between the
     /// points is found exactly by the second pass whatever the pitch, and 0.1 mm needs less material on the cube and the low
@@ -78,8 +81,10 @@ struct Settings {
     Unit max_gap = 5000;         ///< open contours are closed over gaps up to this length
 
     bool inside() const { return support != Support::external; }
-    /// With external supports, how far from O_i the object counts as held up: no track may come nearer than g + r.
-    Unit reach_of_object() const { return support_gap > 0 && support_gap + nozzle / 2 > support_radius ? support_gap + nozzle / 2 : support_radius; }
+    /// Do external supports keep off the object, so that none is rooted on it?
+    bool stands_off() const { return support_gap > 0 || support_gap_layers > 0 || bed_only; }
+    /// With external supports, how far from O_i the object counts as held up: where they stand off, no track may come nearer than g + r.
+    Unit reach_of_object() const { return stands_off() && support_gap + nozzle / 2 > support_radius ? support_gap + nozzle / 2 : support_radius; }
     bool outside() const { return support != Support::internal; }
 
     /// Throws Error (usage) naming the first setting that cannot be, and what it may be.
@@ -106,6 +111,8 @@ struct PrinterSettings {
     double filament_diameter = 1.75;  ///< mm
     int nozzle_temperature = 205;     ///< °C
     int bed_temperature = 60;         ///< °C; 0: not heated
+    int support_extruder = 0;         ///< the tool (T0, T1, ...) of external supports; all else is printed by T0
+    int support_temperature = 0;      ///< °C, of that tool; 0: as nozzle_temperature
     double fan_percent = 100;         ///< from the second layer on
     double print_speed = 40;          ///< mm/s, perimeters and covers
     double support_speed = 60;        ///< mm/s

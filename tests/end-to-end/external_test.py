@@ -60,13 +60,53 @@ class External(unittest.TestCase):
                 here = x, y
         self.assertGreater(supports, 50)
 
+    def test_supports_that_come_off_are_judged_by_the_same_rules(self):
+        for rules in (["--support-gap-layers", "1"], ["--support-gap", "0.3", "--support-gap-layers", "2"], ["--support-gap", "0.2", "--bed-only"]):
+            done = self.run_program("generate", self.table, "-o", "a.gcode", "--support", "external", *rules)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            judged = self.run_program("verify", "a.gcode", *rules, "--report", "a.json")
+            self.assertEqual(judged.returncode, 0, judged.stdout)
+            settings = json.loads((self.folder / "a.json").read_text())["settings"]
+            self.assertEqual((settings["support_gap_layers"] > 0, settings["bed_only"]), ("--support-gap-layers" in rules, "--bed-only" in rules))
+            if "--support-gap-layers" in rules:
+                judged = self.run_program("verify", "a.gcode", "--html", "a.html")
+                self.assertEqual(judged.returncode, 1, judged.stdout)
+                fewer = self.run_program("verify", "a.gcode", *rules[:-1], str(int(rules[-1]) - 1), "--svg", "pictures")
+                self.assertEqual(fewer.returncode, 1, fewer.stdout)
+
+    def test_supports_on_the_bed_alone_stand_on_no_part_of_the_object(self):
+        # A roof over a foot that reaches a little farther.
+        write_stl(self.table, box((-4.5, -4.5, 0), (4.5, 4.5, 1)) + box((-1, -1, 1), (1, 1, 7)) + box((-4, -4, 7), (4, 4, 8)))
+        for bed_only, expected in (([], 1), (["--bed-only"], 0)):
+            done = self.run_program("generate", self.table, "-o", "a.gcode", "--support", "external", *bed_only)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertEqual(self.run_program("verify", "a.gcode", "--support-gap", "0").returncode, 0)
+            self.assertEqual(self.run_program("verify", "a.gcode", "--support-gap", "0", "--bed-only").returncode, expected)
+
+    def test_a_second_tool_prints_the_supports(self):
+        done = self.run_program("generate", self.table, "-o", "a.gcode", "--support", "external", "--support-extruder", "1", "--support-temperature", "190")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        tool, kind, printed, heated = 0, "", {}, False
+        for line in (self.folder / "a.gcode").read_text().splitlines():
+            heated = heated or line.startswith("M109 T1 S190")
+            if re.fullmatch(r"T\d+", line):
+                tool = int(line[1:])
+            elif line.startswith(";TYPE:"):
+                kind = line[6:]
+            elif re.match(r"G1 X.* E", line):
+                printed.setdefault(kind, set()).add(tool)
+        self.assertTrue(heated)
+        self.assertEqual(printed.pop("Support material"), {1})
+        self.assertEqual(set().union(*printed.values()), {0})
+        self.assertEqual(self.run_program("verify", "a.gcode").returncode, 0)
+
     def test_same_bytes_for_any_number_of_threads(self):
         for threads in (1, 2):
             self.run_program("generate", self.table, "-o", f"{threads}.gcode", "--support", "both", "--threads", threads, "--quiet")
         self.assertEqual((self.folder / "1.gcode").read_bytes(), (self.folder / "2.gcode").read_bytes())
 
     def test_what_cannot_be_is_refused(self):
-        for arguments, fragment in ((["--support", "some"], "--support"), (["--support-gap", "0.2"], "--support external"), (["--pillars"], "--support external"),
+        for arguments, fragment in ((["--support", "some"], "--support"), (["--support-gap", "0.2"], "--support external"), (["--bed-only"], "--support external"), (["--support-gap-layers", "1"], "--support external"), (["--pillars"], "--support external"),
                                     (["--support", "both", "--support-gap", "9"], "--support-gap")):
             done = self.run_program("generate", CUBE, "-o", "a.gcode", *arguments)
             self.assertEqual(done.returncode, 2, done.stderr)

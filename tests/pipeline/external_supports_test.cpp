@@ -5,8 +5,11 @@
 
 #include "mesh/solids.hpp"
 #include "report/scratch_folder.hpp"
-#include "ribvault/pipeline/generate.hpp"
+#include "ribvault/exact/nearest_segment.hpp"
+#include "ribvault/exact/point_location.hpp"
 #include "ribvault/pipeline/check_bed.hpp"
+#include "ribvault/pipeline/generate.hpp"
+#include "ribvault/pipeline/prove_layer.hpp"
 #include "ribvault/pipeline/sweep_layers.hpp"
 #include "ribvault/verify/gap_check.hpp"
 #include "ribvault/verify/verify_layer.hpp"
@@ -90,10 +93,11 @@ TEST_CASE("no support track comes nearer to the object than the gap, and without
     const Settings settings = with(Support::external, 20000);
     const Placement placement = place(mesh, {});
     const Slicer slicer(mesh, placement, settings);
+    const OutsideRoom room(slicer, support_frame(mesh, placement, settings), settings, 1, [] { return false; });
     std::vector<LayerMaterial> layers(static_cast<std::size_t>(slicer.layer_count()));
     sweep_layers(slicer, settings, {}, 1, [](const SweptLayer&, const LayerMaterial*) { return std::shared_ptr<void>(); },
                  [&](const SweptLayer& layer, std::shared_ptr<void>) { layers[static_cast<std::size_t>(layer.material.layer)] = layer.material; },
-                 [] { return false; }, support_frame(mesh, placement, settings));
+                 [] { return false; }, &room);
     int held = 0;
     for (std::size_t i = 0; i + 1 < layers.size(); ++i) {
         const auto geometry = [&](std::size_t k) { return LayerGeometry{layers[k].slice->exact.get(), &layers[k].cavity->region, *layers[k].tracks}; };
@@ -121,4 +125,151 @@ TEST_CASE("crevices narrower than the gap are named, and do not pass for held up
     const RunReport filled = run(slot, with(Support::external));
     CHECK(filled.verdict.external_overhangs.empty());
     CHECK(filled.verdict.proved);
+}
+
+namespace {
+
+/// All layers of a sweep, from the bed up.
+struct Swept {
+    Mesh mesh;
+    Placement placement;
+    Slicer slicer;
+    std::optional<OutsideRoom> room;
+    std::vector<SweptLayer> layers;
+
+    Swept(const std::vector<Triangle>& solid, const Settings& settings)
+        : mesh(weld(solid)), placement(place(mesh, {})), slicer(mesh, placement, settings), layers(static_cast<std::size_t>(slicer.layer_count())) {
+        room.emplace(slicer, support_frame(mesh, placement, settings), settings, 1, [] { return false; });
+        sweep_layers(slicer, settings, {}, 1, [](const SweptLayer&, const LayerMaterial*) { return std::shared_ptr<void>(); },
+                     [&](const SweptLayer& layer, std::shared_ptr<void>) { layers[static_cast<std::size_t>(layer.material.layer)] = layer; }, [] { return false; },
+                     &*room);
+    }
+};
+
+/// A column on a foot that reaches as far as the roof over it: what holds up the roof stands on the foot, or slants past it. `foot`: half its side.
+std::vector<Triangle> column_on_foot(double foot) { return box({-foot, -foot, 0}, {foot, foot, 1}) + box({-1, -1, 1}, {1, 1, 8}) + box({-4, -4, 8}, {4, 4, 9}); }
+
+}  // namespace
+
+TEST_CASE("supports on the bed alone stand on no part of the object, and slant past what is in their way") {
+    for (const Unit gap : {0, 30000}) {
+        Settings settings = with(Support::external, gap);
+        const RunReport on_foot = run(column_on_foot(5), settings);
+        CHECK(on_foot.verdict.proved);
+        settings.bed_only = true;
+        // From the middle of the roof to beside the foot: 5 mm and the gap, over 7 mm of height.
+        const Swept swept(column_on_foot(5), settings);
+        double on_bed = 0;
+        for (const Segment& s : *swept.layers[0].material.external) on_bed += length(s);
+        CHECK(on_bed > 0);
+        for (std::size_t i = 1; i < swept.layers.size(); ++i) {
+            INFO("gap " << gap << ", layer " << i);
+            const LayerMaterial &upper = swept.layers[i].material, &lower = swept.layers[i - 1].material;
+            CHECK(prove_layer(upper, lower, settings).supported);
+            LayerMaterial bare = lower;
+            bare.external = std::make_shared<const std::vector<Segment>>();
+            if (!upper.external->empty()) CHECK_FALSE(prove_layer(upper, bare, settings).supported);  // though the object is still there
+        }
+        const RunReport report = run(column_on_foot(5), settings);
+        CHECK(report.verdict.proved);
+        CHECK(report.verdict.print_proved);
+    }
+}
+
+TEST_CASE("a roof from which no way leads to the bed is refuted and named when supports may stand on the bed only") {
+    Settings settings = with(Support::external);
+    settings.bed_only = true;
+    // 14 mm to the side, over 7 mm of height: too far for 0.2 mm a layer.
+    const RunReport report = run(column_on_foot(14), settings);
+    CHECK_FALSE(report.verdict.proved);
+    REQUIRE_FALSE(report.verdict.layers_refuted.empty());
+    CHECK(report.verdict.layers_refuted.back() == 40);
+    const auto& place = report.layers[40].verdict.external;
+    REQUIRE(place);
+    CHECK(std::max(std::abs(place->witness[0] - 125), std::abs(place->witness[1] - 125)) < 4.01);
+    settings.bed_only = false;
+    CHECK(run(column_on_foot(14), settings).verdict.proved);
+}
+
+TEST_CASE("ways to the bed: every point of one is within rho of one on the layer below") {
+    std::mt19937_64 random(5);
+    for (int round = 0; round < 4; ++round) {
+        Settings settings = with(Support::external, round % 2 == 0 ? 0 : 20000);
+        settings.bed_only = true, settings.support_gap_layers = round / 2;
+        Mesh mesh = weld(random_blocks(random));
+        const Placement placement = place(mesh, {});
+        const Slicer slicer(mesh, placement, settings);
+        const OutsideRoom room(slicer, support_frame(mesh, placement, settings), settings, 2, [] { return false; });
+        const auto ways = [&](int layer) {
+            const Cavity outside = room.of(std::make_shared<const Slice>(slicer.slice(layer)), {});
+            REQUIRE(outside.walls);
+            CHECK(outside.on_bed);
+            return *outside.walls;
+        };
+        std::size_t looked = 0;
+        for (int i = 1; i < slicer.layer_count(); ++i) {
+            const NearestSegment below(edges_of(ways(i - 1)));
+            const PointLocation location(below.segments(), units_per_mm);
+            for (const Segment& e : edges_of(ways(i))) {
+                const Point middle{(e.a.x + e.b.x) / 2, (e.a.y + e.b.y) / 2};
+                for (const Point p : {e.a, middle}) {
+                    ++looked;
+                    const bool inside = location.locate(p) != Side::outside;
+                    CHECK((inside || compare_distance(p, below.segments()[below.nearest(p).index], settings.support_radius) <= 0));
+                }
+            }
+        }
+        CHECK(looked > 400);
+    }
+}
+
+TEST_CASE("a gap of layers: nothing stands right under the object, and what hangs is proved through the gap") {
+    for (const int gap : {1, 3}) {
+        Settings settings = with(Support::external, 10000);
+        settings.support_gap_layers = gap;
+        const Swept swept(table_with_hook(), settings);
+        std::size_t through = 0;
+        for (std::size_t k = 0; k < swept.layers.size(); ++k) {
+            const SweptLayer& layer = swept.layers[k];
+            INFO("gap " << gap << ", layer " << k);
+            for (std::size_t j = k; j <= std::min(k + static_cast<std::size_t>(gap), swept.layers.size() - 1); ++j)
+                CHECK_FALSE(find_too_near(*swept.layers[j].material.slice->exact, *layer.material.external, 30000));
+            if (k > 0) CHECK(prove_layer(layer.material, swept.layers[k - 1].material, settings).supported);
+            for (const OverGap& over : layer.over_gap) {
+                CHECK(over.over_bed == (over.upper.layer <= gap));
+                if (over.over_bed) continue;
+                CHECK(over.upper.layer - layer.material.layer == gap + 1);
+                CHECK(over.gap.size() == static_cast<std::size_t>(gap));
+                CHECK(prove_over_gap(over, layer.material, settings).supported);
+                REQUIRE(over.print.hanging);
+                const auto part = std::find_if(layer.held.parts.begin(), layer.held.parts.end(), [](const PrintPart& p) { return p.over_gap; });
+                CHECK((part == layer.held.parts.end()) == over.print.hanging->tracks.empty());
+                if (part != layer.held.parts.end()) CHECK(part->judgement.verdict().supported);
+                LayerMaterial bare = layer.material;
+                bare.external = std::make_shared<const std::vector<Segment>>();
+                through += !prove_over_gap(over, bare, settings).supported;
+            }
+        }
+        CHECK(through == 2);  // the hook's bar and the top
+        const RunReport report = run(table_with_hook(), settings);
+        CHECK(report.verdict.proved);
+        CHECK(report.verdict.print_proved);
+    }
+}
+
+TEST_CASE("random blocks on supports from the bed, and through gaps of layers, are proved or say what is not") {
+    std::mt19937_64 random(20261128);
+    int proved = 0;
+    for (int round = 0; round < 16; ++round) {
+        Settings settings = with(round % 4 < 2 ? Support::external : Support::both, std::array<Unit, 3>{0, 10000, 30000}[static_cast<std::size_t>(round) % 3]);
+        settings.bed_only = round % 2 == 0;
+        settings.support_gap_layers = std::array<int, 3>{1, 0, 2}[static_cast<std::size_t>(round / 2) % 3];
+        if (round % 5 == 4) settings.propagation = Propagation::shrink, settings.order = Order::doubling, settings.trim = true;
+        const RunReport report = run(random_blocks(random), settings);
+        INFO("round " << round);
+        if (!settings.bed_only) CHECK(report.verdict.proved);
+        if (report.verdict.proved) CHECK(report.verdict.print_proved);
+        proved += report.verdict.proved;
+    }
+    CHECK(proved >= 10);
 }

@@ -409,3 +409,35 @@ TEST_CASE("skirt and brim are printed before the first layer's tracks and nowher
     CHECK(text.statistics.retractions == 1);
     CHECK(text.statistics.length[static_cast<std::size_t>(TrackKind::skirt)] == Approx(48));
 }
+
+TEST_CASE("external supports are printed by their own tool, retracted and primed at every change") {
+    PrinterSettings printer;
+    printer.support_extruder = 2;
+    const LayerPaths layer = layer_of({path_of(TrackKind::outer_perimeter, {{0, 0}, {10 * mm, 0}}), path_of(TrackKind::external_support, {{10 * mm, 0}, {20 * mm, 0}}),
+                                       path_of(TrackKind::external_support, {{20 * mm, 0}, {20 * mm, 5 * mm}})});
+    const TravelMap map({}, {}, layer);
+    const auto text_of = [&](int number) {
+        LayerPaths own = layer;
+        own.layer = number;
+        return gcode_layer(own, map, {}, printer);
+    };
+    const auto changes = [](const std::string& text) {
+        std::vector<std::string> lines;
+        std::istringstream all(text);
+        for (std::string line, before; std::getline(all, line); before = line)
+            if (line[0] == 'T') lines.push_back(before.substr(0, 5) + " " + line);
+        return lines;
+    };
+    const LayerText lower = text_of(3), upper = text_of(4);
+    CHECK(changes(lower.body) == std::vector<std::string>{"G1 E- T2"});
+    CHECK(lower.statistics.retractions == 1);
+    PrintStatistics statistics;
+    const std::string joint = gcode_joint(&lower, upper, map, {}, printer, statistics);
+    CHECK(joint.find("\nT0\n") != std::string::npos);
+    CHECK(statistics.retractions == 1);
+    CHECK(gcode_joint(nullptr, lower, map, {}, printer, statistics).find("\nT") == std::string::npos);  // the header leaves T0
+    LayerText empty;
+    CHECK(gcode_joint(&empty, upper, map, {}, printer, statistics).find("\nT0\n") != std::string::npos);
+    printer.support_extruder = 0;
+    CHECK(changes(text_of(3).body).empty());
+}

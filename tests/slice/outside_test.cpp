@@ -43,13 +43,12 @@ TEST_CASE("with a removal gap walls keep g + r off every corner and edge of the 
         settings.support_gap = gap;
         const DriftingShapes shapes(random, 4, 2, 2000000, 3000);
         const Slice slice = slice_of(3, shapes.at(3));
-        const Cavity outside = make_outside(slice, frame, settings);
-        REQUIRE(outside.walls);
+        const Region walls = off_the_object({std::make_shared<const Slice>(slice)}, frame, settings);
         const NearestSegment object(edges_of(slice.rounded));
         const PointLocation solid(edges_of(slice.rounded), units_per_mm);
         const Unit least = gap + settings.nozzle / 2;
         std::size_t on_arcs = 0;
-        for (const Segment& e : edges_of(*outside.walls)) {
+        for (const Segment& e : edges_of(walls)) {
             if (std::abs(e.a.x) == 3000000 || std::abs(e.a.y) == 3000000) continue;
             // The nearest place of an edge that is no arc's chord may be between its ends.
             for (const Segment& o : object.segments()) {

@@ -25,7 +25,7 @@ TEST_CASE("no point of a wall above that neither wall nor shell below holds up i
                        b = add_vertex(SupportVertex{s.b + by, false}, below);
             add_edge(a, b, below);
         }
-        const Region region = unsupported_walls(above, below, scene.cavity, scene.settings);
+        const Region region = unsupported_walls(above, below, &scene.cavity.deep, scene.settings);
         const PointLocation found(edges_of(region), 50000);
         const NearestSegment tracks(tracks_of(below));
         const Unit r = 20000, rho = 20000;
@@ -51,14 +51,14 @@ TEST_CASE("a wall that has moved by exactly ρ is held up, by a unit more it is 
     const Cavity cavity = make_cavity(0, {rectangle(-1000000, 0, 1000000, 1000000)}, settings);
     const Segment wall{{0, 0}, {0, 500000}}, slanted{{100000, 100000}, {500000, 400000}};  // along 4-3-5
     const auto below = [](const Segment& s, Point by) { return forest_of({{s.a + by, s.b + by}, {0}, {{0, 1}}}); };
-    CHECK(unsupported_walls({wall}, below(wall, {20000, 0}), cavity, settings).empty());
-    CHECK(unsupported_walls({wall}, below(wall, {12000, 16000}), cavity, settings).empty());
-    CHECK(unsupported_walls({slanted}, below(slanted, {-12000, 16000}), cavity, settings).empty());
-    CHECK_FALSE(unsupported_walls({wall}, below(wall, {20001, 0}), cavity, settings).empty());
-    CHECK_FALSE(unsupported_walls({slanted}, below(slanted, {-12001, 16000}), cavity, settings).empty());
-    CHECK_FALSE(unsupported_walls({wall}, {}, cavity, settings).empty());
+    CHECK(unsupported_walls({wall}, below(wall, {20000, 0}), &cavity.deep, settings).empty());
+    CHECK(unsupported_walls({wall}, below(wall, {12000, 16000}), &cavity.deep, settings).empty());
+    CHECK(unsupported_walls({slanted}, below(slanted, {-12000, 16000}), &cavity.deep, settings).empty());
+    CHECK_FALSE(unsupported_walls({wall}, below(wall, {20001, 0}), &cavity.deep, settings).empty());
+    CHECK_FALSE(unsupported_walls({slanted}, below(slanted, {-12001, 16000}), &cavity.deep, settings).empty());
+    CHECK_FALSE(unsupported_walls({wall}, {}, &cavity.deep, settings).empty());
     // The wall's own stadium, where the shell does not hold it up.
-    const double area = signed_area(unsupported_walls({slanted}, {}, cavity, settings)),
+    const double area = signed_area(unsupported_walls({slanted}, {}, &cavity.deep, settings)),
                  true_area = 40000.0 * 500000 + M_PI * 20000 * 20000;
     CHECK(area >= true_area);
     CHECK(area < 1.01 * true_area);
@@ -68,8 +68,8 @@ TEST_CASE("a dot holds up the stub above it") {
     const Settings settings;
     const Cavity cavity = make_cavity(0, {rectangle(-1000000, 0, 1000000, 1000000)}, settings);
     const SupportForest dot = forest_of({{{0, 0}}, {0}, {}});
-    CHECK(unsupported_walls({{{0, 0}, {0, 20000}}}, dot, cavity, settings).empty());
-    CHECK_FALSE(unsupported_walls({{{0, 0}, {0, 20000}}}, {}, cavity, settings).empty());
-    CHECK_FALSE(unsupported_walls({{{0, 0}, {0, 20001}}}, dot, cavity, settings).empty());
-    CHECK(unsupported_walls({}, dot, cavity, settings).empty());
+    CHECK(unsupported_walls({{{0, 0}, {0, 20000}}}, dot, &cavity.deep, settings).empty());
+    CHECK_FALSE(unsupported_walls({{{0, 0}, {0, 20000}}}, {}, &cavity.deep, settings).empty());
+    CHECK_FALSE(unsupported_walls({{{0, 0}, {0, 20001}}}, dot, &cavity.deep, settings).empty());
+    CHECK(unsupported_walls({}, dot, &cavity.deep, settings).empty());
 }

@@ -25,7 +25,7 @@ void step(Sweep& sweep, const Token& token) {
 
 }  // namespace
 
-std::vector<Candidate> sweep_candidates(const Slicer& slicer, const Settings& settings, int threads, const std::function<bool()>& stop, const Box& frame,
+std::vector<Candidate> sweep_candidates(const Slicer& slicer, const Settings& settings, int threads, const std::function<bool()>& stop, const OutsideRoom* room,
                                         const std::function<void(int, int)>& progress) {
     namespace tbb = oneapi::tbb;
     std::vector<Sweep> sweeps;
@@ -40,7 +40,7 @@ std::vector<Candidate> sweep_candidates(const Slicer& slicer, const Settings& se
 
     const std::size_t limit = thread_limit(threads);
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
-    LayerFront front(slicer, settings, nullptr, stop, frame);
+    LayerFront front(slicer, settings, nullptr, stop, room);
     int done = 0;
     const auto sweep = [&](TokenPtr token) {
         if (token->layer >= 0) {

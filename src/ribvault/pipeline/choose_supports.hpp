@@ -14,8 +14,8 @@ namespace ribvault {
 /// Nothing is printed or proved meanwhile; slices and cavities are made once for all of them. Empty where nothing is open. At most a
 /// window of layers is alive at any time. The result does not depend on `threads`. `progress(done, layers)` as layers are done.
 ///
-/// Throws as sweep_layers does. `frame` as there.
-std::vector<Candidate> sweep_candidates(const Slicer& slicer, const Settings& settings, int threads, const std::function<bool()>& stop, const Box& frame,
+/// Throws as sweep_layers does. `room` as there.
+std::vector<Candidate> sweep_candidates(const Slicer& slicer, const Settings& settings, int threads, const std::function<bool()>& stop, const OutsideRoom* room,
                                         const std::function<void(int, int)>& progress);
 
 }  // namespace ribvault

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <deque>
 #include <memory>
 #include <numbers>
 #include <thread>
@@ -14,6 +15,8 @@
 #include "ribvault/pipeline/check_bed.hpp"
 #include "ribvault/pipeline/choose_supports.hpp"
 #include "ribvault/pipeline/layer_spool.hpp"
+#include "ribvault/pipeline/outside_room.hpp"
+#include "ribvault/pipeline/prove_layer.hpp"
 #include "ribvault/pipeline/shape_outputs.hpp"
 #include "ribvault/pipeline/sweep_layers.hpp"
 #include "ribvault/print/gcode_header.hpp"
@@ -26,7 +29,6 @@
 #include "ribvault/report/write_mesh.hpp"
 #include "ribvault/vault/wall_stability.hpp"
 #include "ribvault/verify/gap_check.hpp"
-#include "ribvault/verify/verify_layer.hpp"
 
 namespace ribvault {
 namespace {
@@ -42,6 +44,12 @@ struct LayerOutput {
     TravelMap map;
     Box box;  ///< of the tracks' centre lines
     PrintVerdict print_above;  ///< of the layer above over this one
+    struct OverGap {
+        int layer;
+        LayerVerdict verdict;
+        PrintVerdict print;
+    };
+    std::vector<OverGap> over_gap;  ///< of the layers that external supports of this one hold up through a gap
     std::string walls;
     std::optional<AtomicFile> picture;
     std::string shapes, packed;  ///< for the layers file; for the run page
@@ -65,14 +73,20 @@ public:
         check_layers(slicer);
         open_outputs(slicer.layer_count());
         times_["read"] = seconds_since(start_);
-        const Box frame = job_.settings.outside() ? support_frame(mesh_, report_.placement, job_.settings) : Box();
-        choose(slicer, frame);
+        std::optional<OutsideRoom> room;
+        if (job_.settings.outside()) {
+            const auto from = Time::now();
+            room.emplace(slicer, support_frame(mesh_, report_.placement, job_.settings), job_.settings, job_.threads, job_.stop);
+            if (job_.settings.bed_only) times_["ways"] = seconds_since(from);
+        }
+        const OutsideRoom* outside = room ? &*room : nullptr;
+        choose(slicer, outside);
 
         const auto finish = [&](const SweptLayer& layer, const LayerMaterial* below) { return std::shared_ptr<void>(finish_layer(slicer, layer, below)); };
         const auto collect = [&](const SweptLayer&, std::shared_ptr<void> output) { collect_layer(std::static_pointer_cast<LayerOutput>(output)); };
-        times_.merge(sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop, frame));
+        times_.merge(sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop, outside));
         times_.erase("finish");  // its parts are counted one by one
-        if (waiting_) join(nullptr);
+        while (!waiting_.empty()) join();
         times_["proof"] = 1e-9 * static_cast<double>(proof_), times_["paths"] = 1e-9 * static_cast<double>(paths_);
         times_["pictures"] = 1e-9 * static_cast<double>(pictures_);
         write_outputs();
@@ -103,9 +117,9 @@ private:
     }
 
     /// Settles what the settings leave open.
-    void choose(const Slicer& slicer, const Box& frame) {
+    void choose(const Slicer& slicer, const OutsideRoom* room) {
         const auto from = Time::now();
-        report_.candidates = sweep_candidates(slicer, job_.settings, job_.threads, job_.stop, frame, job_.choosing);
+        report_.candidates = sweep_candidates(slicer, job_.settings, job_.threads, job_.stop, room, job_.choosing);
         if (!report_.candidates.empty()) {
             job_.settings.narrow_bonus = report_.candidates.front().narrow_bonus, job_.settings.seed = report_.candidates.front().seed;
             times_["choose"] = seconds_since(from);
@@ -144,9 +158,11 @@ private:
         auto from = Time::now();
         r.verdict.layer = layer.layer;
         r.verdict.supported = true;  // layer 0 lies on the bed
-        if (below) r.verdict = verify_layer(layer.layer, geometry(layer), geometry(*below), s);
-        if (s.support_gap > 0) check_gap(*layer.slice, swept.held.plan, r.verdict);
-        if (swept.held.judgement) output->print_above = swept.held.judgement->verdict();
+        if (below) r.verdict = prove_layer(layer, *below, s);
+        if (s.stands_off()) check_gap(*layer.slice, swept.held.plan, r.verdict);
+        PrintVerdict print_over_gap;
+        for (const PrintPart& part : swept.held.parts) add_verdict(part.judgement.verdict(), part.over_gap ? print_over_gap : output->print_above);
+        for (const OverGap& over : swept.over_gap) output->over_gap.push_back({over.upper.layer, prove_over_gap(over, layer, s), over.over_bed ? PrintVerdict() : print_over_gap});
         proof_ += (Time::now() - from).count();
 
         from = Time::now();
@@ -188,6 +204,7 @@ private:
         for (double volume : p.volume) r.extruded_mm3 += volume;
         r.trees = static_cast<int>(num_vertices(swept.forest) - num_edges(swept.forest));
         r.wide_trees = wide_trees(swept.forest);
+        r.braces = swept.braces;
         const SlenderPlace worst = most_slender(swept.forest, s);
         r.slenderness = worst.ratio, r.slender_at = {to_mm(worst.at.x), to_mm(worst.at.y)};
         r.slender_standing_mm = worst.standing / units_per_mm, r.slender_to_root_mm = worst.to_root / units_per_mm;
@@ -226,16 +243,16 @@ private:
         verdict.malformed = "the external support at (" + std::to_string(to_mm(near->a.x)) + ", " + std::to_string(to_mm(near->a.y)) + ") mm is nearer to the object than the gap";
     }
 
-    static LayerGeometry geometry(const LayerMaterial& layer) { return {layer.slice->exact.get(), &layer.cavity->region, *layer.tracks}; }
-
-    /// Layers come from the top. Each waits for the one below it, to which it is joined then.
+    /// Layers come from the top. Each waits for the one below it, to which it is joined then, and for that whose external supports hold it up.
     void collect_layer(std::shared_ptr<LayerOutput> next) {
         LayerOutput& output = *next;
-        if (waiting_) {
-            waiting_->report.print = output.print_above;
-            join(&output.text);
-        } else
+        if (waiting_.empty())
             end_of_layers_ = gcode_end_of_layers(output.text, job_.printer, output.text.statistics);
+        else
+            waiting_.back()->report.print = output.print_above;
+        for (const LayerOutput::OverGap& over : output.over_gap)
+            for (const auto& layer : waiting_)
+                if (layer->report.layer == over.layer) add_verdict(over.verdict, layer->report.verdict), add_verdict(over.print, layer->report.print);
         if (output.picture) svgs_.push_back(std::move(*output.picture));
         if (walls_) {
             facets_ += static_cast<std::uint32_t>(output.walls.size() / 50);
@@ -245,13 +262,17 @@ private:
                 walls_->write(output.walls);
         }
         if (!output.box.empty()) box_.add(output.box.lo), box_.add(output.box.hi);
-        waiting_ = std::move(next);
-        job_.progress(static_cast<int>(report_.layers.size()) + 1, total_);
+        waiting_.push_back(std::move(next));
+        if (waiting_.size() > static_cast<std::size_t>(job_.settings.support_gap_layers) + 1) join();
+        job_.progress(static_cast<int>(report_.layers.size() + waiting_.size()), total_);
     }
 
-    /// Writes the layer that waits, with the way to it from the one below (nullptr under layer 0).
-    void join(const LayerText* below) {
-        LayerOutput& output = *waiting_;
+    /// Writes the uppermost layer that waits, with the way to it from the one below (under layer 0 there is none).
+    void join() {
+        const std::shared_ptr<LayerOutput> uppermost = std::move(waiting_.front());
+        waiting_.pop_front();
+        LayerOutput& output = *uppermost;
+        const LayerText* below = waiting_.empty() ? nullptr : &waiting_.front()->text;
         const auto from = Time::now();
         PrintStatistics& p = output.text.statistics;
         const std::string joint = gcode_joint(below, output.text, output.map, job_.settings, job_.printer, p);
@@ -263,7 +284,6 @@ private:
         r.print_seconds = p.seconds;
         shapes_.add(r, output.shapes, output.packed);
         report_.layers.push_back(std::move(output.report));
-        waiting_.reset();
         paths_ += (Time::now() - from).count();
     }
 
@@ -325,7 +345,7 @@ private:
     Mesh mesh_;
     RunReport report_;
     std::string kept_walls_, end_of_layers_;
-    std::shared_ptr<LayerOutput> waiting_;
+    std::deque<std::shared_ptr<LayerOutput>> waiting_;  ///< from the top
     Box box_;
     std::optional<AtomicFile> gcode_, json_, walls_;
     std::optional<LayerSpool> spool_;

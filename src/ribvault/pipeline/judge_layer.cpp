@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <set>
 
 #include "ribvault/print/printed_layers.hpp"
@@ -78,6 +80,70 @@ PrintedLayer without_bridges(const GcodeLayer& layer, PrintedLayer upper, const 
     return take_out_bridges(upper, continues, verdict, bridges).layer;
 }
 
+void add_verdict(PrintedVerdict more, PrintedVerdict& verdict) {
+    verdict.centre_lines_supported = verdict.centre_lines_supported && more.centre_lines_supported;
+    verdict.supported = verdict.supported && more.supported;
+    for (std::size_t k = 0; k < more.unsupported_length.size(); ++k)
+        for (const std::size_t end : {0, 1}) verdict.unsupported_length[k][end] += more.unsupported_length[k][end];
+    std::move(more.pieces.begin(), more.pieces.end(), std::back_inserter(verdict.pieces));
+    std::stable_sort(verdict.pieces.begin(), verdict.pieces.end(), [](const UnsupportedPiece& a, const UnsupportedPiece& b) { return a.track < b.track; });
+    std::move(more.regions.begin(), more.regions.end(), std::back_inserter(verdict.regions));
+    verdict.stages += more.stages;
+}
+
+/// The entries under this one and under its gap, each once; nothing where the gap reaches down to the bed.
+std::optional<std::vector<std::size_t>> entries_below(const GcodePrint& print, std::size_t entry, int gap) {
+    std::set<std::size_t> all, level{entry};
+    for (int k = 0; k <= gap; ++k) {
+        if (k > 0 && std::any_of(level.begin(), level.end(), [&](std::size_t e) { return print.layers[e].on_bed; })) return std::nullopt;
+        std::set<std::size_t> next;
+        for (const std::size_t e : level) next.insert(print.layers[e].below.begin(), print.layers[e].below.end());
+        all.insert(next.begin(), next.end());
+        level = std::move(next);
+    }
+    return std::vector<std::size_t>(all.begin(), all.end());
+}
+
+/// All of `upper` over `lower`, the material directly below, or where the rules tell supports from the object, each over what may hold it up: all of
+/// that is `lower` then.
+PrintedVerdict judge_groups(const GcodePrint& print, std::size_t entry, const PrintedLayer& upper, PrintedLayer& lower, const std::vector<char>& judged,
+                            const LayerRules& rules) {
+    PrintedOptions options;
+    options.judged = judged, options.distance_cells = distance_cells;
+    if (rules.object_reach == 0 && rules.gap_layers == 0 && !rules.supports_alone) return verify_printed(upper, lower, rules.support_radius, options);
+    const auto is_support = [&](const PrintedTrack& t) { return print.features[static_cast<std::size_t>(t.feature)].kind == FeatureKind::support; };
+    const auto group = [&](bool supports) {
+        std::vector<char> chosen = judged;
+        for (std::size_t k = 0; k < chosen.size(); ++k) chosen[k] = chosen[k] != 0 && is_support(upper.tracks[k]) == supports ? 1 : 0;
+        return chosen;
+    };
+    const auto widen = [&](PrintedLayer& layer) {
+        if (rules.object_reach == 0) return;
+        for (PrintedTrack& t : layer.tracks)
+            if (!is_support(t)) t.width = Rational(Rational(t.width) + 2 * rules.object_reach);
+    };
+    PrintedLayer under_object = lower;
+    const std::optional<std::vector<std::size_t>> entries = entries_below(print, entry, rules.gap_layers);
+    if (rules.gap_layers > 0 && entries)
+        for (const std::size_t e : *entries) {
+            const PrintedLayer more = layer_below(print, e);
+            under_object.tracks.insert(under_object.tracks.end(), more.tracks.begin(), more.tracks.end());
+        }
+    if (rules.supports_alone) std::erase_if(lower.tracks, [&](const PrintedTrack& t) { return !is_support(t); });
+    widen(lower), widen(under_object);
+    options.judged = group(true);
+    PrintedVerdict verdict = verify_printed(upper, lower, rules.support_radius, options);
+    if (!entries) return verdict;  // the bed holds up the object
+    options.judged = group(false);
+    PrintedVerdict object = verify_printed(upper, under_object, rules.support_radius, options);
+    for (UnsupportedRegion& region : object.regions)
+        for (BoundaryCurve& curve : region.boundary.curves)
+            if (!curve.above) curve.track += lower.tracks.size();
+    std::move(under_object.tracks.begin(), under_object.tracks.end(), std::back_inserter(lower.tracks));
+    add_verdict(std::move(object), verdict);
+    return verdict;
+}
+
 }  // namespace
 
 JudgedLayer judge_layer(const GcodePrint& print, std::size_t entry, const LayerRules& rules) {
@@ -118,10 +184,7 @@ JudgedLayer judge_layer(const GcodePrint& print, std::size_t entry, const LayerR
         const std::vector<char> judged = judged_of(upper);
         upper = without_bridges(layer, std::move(upper), lower, judged, rules, result);
     }
-    PrintedOptions options;
-    options.judged = judged_of(upper);
-    options.distance_cells = distance_cells;
-    const PrintedVerdict verdict = verify_printed(upper, lower, rules.support_radius, options);
+    const PrintedVerdict verdict = judge_groups(print, entry, upper, lower, judged_of(upper), rules);
     out.stages += verdict.stages;
     for (std::size_t k = 0; k < upper.tracks.size(); ++k) {
         const Enclosure length{verdict.unsupported_length[k][0], verdict.unsupported_length[k][1]};

@@ -2,6 +2,8 @@
 
 #include <boost/graph/copy.hpp>
 
+#include <algorithm>
+
 #include "ribvault/print/shell_paths.hpp"
 #include "ribvault/slice/outside.hpp"
 
@@ -28,18 +30,22 @@ LayerSupports next_supports(SupportForest& above, const Token& token, const Sett
     return supports;
 }
 
-std::shared_ptr<const std::vector<Segment>> tracks_of(const SupportForest& forest) {
-    auto tracks = std::make_shared<std::vector<Segment>>();
-    tracks->reserve(num_edges(forest));
-    for (auto [e, end] = edges(forest); e != end; ++e)
-        tracks->push_back({forest[source(*e, forest)].at, forest[target(*e, forest)].at});
+void enter_tracks(const SupportForest& forest, LayerMaterial& material) {
+    std::vector<Segment> all, internal, external;
+    const auto add = [&](std::size_t a, std::size_t b) {
+        all.push_back({forest[a].at, forest[b].at});
+        (forest[a].outside ? external : internal).push_back(all.back());
+    };
+    for (auto [e, end] = edges(forest); e != end; ++e) add(source(*e, forest), target(*e, forest));
     for (auto [v, end] = vertices(forest); v != end; ++v)
-        if (out_degree(*v, forest) == 0) tracks->push_back({forest[*v].at, forest[*v].at});
-    return tracks;
+        if (out_degree(*v, forest) == 0) add(*v, *v);
+    material.tracks = std::make_shared<const std::vector<Segment>>(std::move(all));
+    material.internal = std::make_shared<const std::vector<Segment>>(std::move(internal));
+    material.external = std::make_shared<const std::vector<Segment>>(std::move(external));
 }
 
-LayerFront::LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks, const std::function<bool()>& stop, const Box& frame)
-    : slicer_(slicer), settings_(settings), tracks_(tracks), stop_(stop), frame_(frame), layers_(slicer.layer_count()),
+LayerFront::LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks, const std::function<bool()>& stop, const OutsideRoom* room)
+    : slicer_(slicer), settings_(settings), tracks_(tracks), stop_(stop), room_(room), layers_(slicer.layer_count()),
       last_(-settings.bottom_layers - 1), next_(layers_ - 1), window_top_(layers_ - 1) {}
 
 oneapi::tbb::filter<void, TokenPtr> LayerFront::filter() {
@@ -51,7 +57,7 @@ oneapi::tbb::filter<void, TokenPtr> LayerFront::filter() {
     return tbb::make_filter<void, TokenPtr>(filter_mode::serial_in_order, [this](tbb::flow_control& flow) { return produce(flow); }) &
            step(filter_mode::parallel, &LayerFront::slice) & step(filter_mode::serial_in_order, &LayerFront::gather) &
            step(filter_mode::parallel, &LayerFront::hollow) & step(filter_mode::serial_in_order, &LayerFront::pair) &
-           step(filter_mode::parallel, &LayerFront::hang);
+           step(filter_mode::parallel, &LayerFront::hang) & step(filter_mode::serial_in_order, &LayerFront::delay);
 }
 
 StageTimes LayerFront::seconds() const {
@@ -81,12 +87,14 @@ void LayerFront::gather(Token& token) {
     const int layer = token.slice_index + down;
     if (layer >= layers_ || layer < 0) return;
     token.layer = layer;
-    while (window_top_ > layer + up) window_.pop_front(), --window_top_;
+    while (window_top_ > layer + std::max(up, settings_.support_gap_layers)) window_.pop_front(), --window_top_;
+    const auto at = [&](int j) -> const Eroded& { return window_[static_cast<std::size_t>(window_top_ - j)]; };
+    for (int j = layer + 1; j <= std::min(layer + settings_.support_gap_layers, layers_ - 1); ++j) token.slices_above.push_back(at(j).slice);
     bool complete = layer + up < layers_ && layer - down >= 0;  // missing layers count as empty
     for (int j = layer + up; complete && j >= layer - down; --j)
-        token.eroded.push_back(window_[static_cast<std::size_t>(window_top_ - j)].region);
+        token.eroded.push_back(at(j).region);
     Eroded& own = window_[static_cast<std::size_t>(window_top_ - layer)];
-    token.material = {layer, own.slice, nullptr, nullptr, nullptr, std::move(own.closings), nullptr};
+    token.material = {.layer = layer, .slice = own.slice, .closings = std::move(own.closings)};
 }
 
 void LayerFront::hollow(Token& token) {
@@ -98,7 +106,7 @@ void LayerFront::hollow(Token& token) {
             for (std::size_t k = 1; k < token.eroded.size(); ++k) region = intersect(region, *token.eroded[k]);
         }
         token.material.cavity = std::make_shared<const Cavity>(make_cavity(token.layer, std::move(region), settings_));
-        if (settings_.outside()) token.material.outside = std::make_shared<const Cavity>(make_outside(*token.material.slice, frame_, settings_));
+        if (settings_.outside()) token.material.outside = std::make_shared<const Cavity>(room_->of(token.material.slice, token.slices_above));
     });
 }
 
@@ -123,6 +131,16 @@ void LayerFront::hang(Token& token) {
         if (settings_.outside())
             token.overhang_outside = overhang_outside(*token.material.outside, *token.above.outside, *token.above.cavity, settings_);
     });
+}
+
+void LayerFront::delay(Token& token) {
+    if (token.layer < 0 || settings_.support_gap_layers == 0) return;
+    over_gap_.push_back(std::move(token.overhang_outside));
+    token.overhang_outside.clear();
+    // What is left at layer 0 hangs over the bed, no farther up than the gap.
+    if (over_gap_.size() <= static_cast<std::size_t>(settings_.support_gap_layers)) return;
+    token.overhang_outside = std::move(over_gap_.front());
+    over_gap_.pop_front();
 }
 
 }  // namespace ribvault

@@ -47,6 +47,7 @@ struct Token {
     int slice_index = 0;
     Eroded own;
     int layer = -1;  ///< the layer whose cavity this token computes; -1: none yet, or none any more
+    std::vector<std::shared_ptr<const Slice>> slices_above;  ///< of the layers of settings.support_gap_layers, as far as there are any
     std::vector<std::shared_ptr<const Region>> eroded;  ///< slices layer - k .. layer + k; empty where one is missing
     LayerMaterial material, above;
     Region overhang, overhang_outside;
@@ -77,14 +78,14 @@ private:
 /// S_i under `above` = S_{i+1}, in the cavity and outside: next_layer for the layer of this token.
 LayerSupports next_supports(SupportForest& above, const Token& token, const Settings& settings);
 
-/// S_i as segments; dots as segments of no length.
-std::shared_ptr<const std::vector<Segment>> tracks_of(const SupportForest& forest);
+/// Enters S_i in the layer's material: as segments, dots as segments of no length.
+void enter_tracks(const SupportForest& forest, LayerMaterial& material);
 
 /// Makes tokens of layers, from the top. One use: filter() is the head of one pipeline.
 class LayerFront {
 public:
     /// Without `tracks` no shell is planned. All arguments must outlive the pipeline.
-    LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks, const std::function<bool()>& stop, const Box& frame);
+    LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks, const std::function<bool()>& stop, const OutsideRoom* room);
 
     oneapi::tbb::filter<void, TokenPtr> filter();
     /// A token that has been through the whole pipeline, in the order in which they left.
@@ -102,18 +103,20 @@ private:
     void hollow(Token& token);
     void pair(Token& token);
     void hang(Token& token);
+    void delay(Token& token);
 
     const Slicer& slicer_;
     const Settings& settings_;
     const TrackSettings* tracks_;
     const std::function<bool()>& stop_;
-    const Box& frame_;
+    const OutsideRoom* room_;
     const int layers_, last_;
     int next_;  ///< after the last slice come empty tokens that push the last layers through
     Tokens tokens_;
     std::deque<Eroded> window_;  ///< slices window_top_, window_top_ - 1, ...
     int window_top_;
     LayerMaterial above_;
+    std::deque<Region> over_gap_;  ///< what hangs outside, for the layer that holds it up through settings.support_gap_layers empty ones
     Clock slicing_, eroding_, cavities_, overhangs_, planning_;
 };
 

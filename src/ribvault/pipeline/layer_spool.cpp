@@ -1,8 +1,9 @@
 #include "ribvault/pipeline/layer_spool.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
-#include <string>
 
 #include "ribvault/error.hpp"
 
@@ -25,17 +26,25 @@ void LayerSpool::add(std::string_view text) {
     ends_.push_back((ends_.empty() ? 0 : ends_.back()) + text.size());
 }
 
-void LayerSpool::replay_backwards(const std::function<void(std::string_view)>& take) {
+void LayerSpool::finish() {
     if (std::fflush(file_.get()) != 0) fail(errno);
-    std::string text;
-    for (std::size_t k = ends_.size(); k-- > 0;) {
-        const std::uint64_t begin = k == 0 ? 0 : ends_[k - 1];
-        text.resize(ends_[k] - begin);
-        if (fseeko(file_.get(), static_cast<off_t>(begin), SEEK_SET) != 0 ||
-            std::fread(text.data(), 1, text.size(), file_.get()) != text.size())
-            fail(errno);
-        take(text);
+}
+
+std::string LayerSpool::at(std::size_t k) const {
+    const std::uint64_t begin = k == 0 ? 0 : ends_[k - 1];
+    std::string text(ends_[k] - begin, '\0');
+    for (std::size_t read = 0; read < text.size();) {
+        const ssize_t got = pread(fileno(file_.get()), text.data() + read, text.size() - read, static_cast<off_t>(begin + read));
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) fail(got < 0 ? errno : EIO);
+        read += static_cast<std::size_t>(got);
     }
+    return text;
+}
+
+void LayerSpool::replay_backwards(const std::function<void(std::string_view)>& take) {
+    finish();
+    for (std::size_t k = ends_.size(); k-- > 0;) take(at(k));
 }
 
 }  // namespace ribvault

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ribvault/pipeline/outside_room.hpp"
 #include "ribvault/print/hold_print.hpp"
 #include "ribvault/print/track_settings.hpp"
 #include "ribvault/settings.hpp"
@@ -23,8 +24,17 @@ struct LayerMaterial {
     std::shared_ptr<const Cavity> cavity;             ///< C_i
     std::shared_ptr<const Cavity> outside;            ///< where external supports may stand; nullptr: nowhere
     std::shared_ptr<const std::vector<Segment>> tracks;  ///< S_i as segments; dots as segments of no length
+    std::shared_ptr<const std::vector<Segment>> internal, external;  ///< of these, those in cavities and those outside
     std::vector<GapClosing> closings;
     std::shared_ptr<LayerPlan> shell;  ///< perimeters and covers; taken by hold_print
+};
+
+/// A layer whose overhangs external supports hold up through a gap, from settings.support_gap_layers + 1 layers below. Where there are not so many the bed does.
+struct OverGap {
+    LayerMaterial upper;                                  ///< layer j
+    bool over_bed = false;                                ///< no more layers than the gap has lie below it
+    std::vector<LayerMaterial> gap;                       ///< layers j - 1, j - 2, ... above the supports
+    PrintOverGap print;
 };
 
 /// A layer with everything known about it that its neighbours decide.
@@ -34,8 +44,10 @@ struct SweptLayer {
     Region unsupported;    ///< what of layer i + 1 the walls copied from above and the shell did not hold up
     double length_bound = 0;  ///< no supports here could be shorter, lattice units; 0 unless settings.length_bound
     int blocked = 0;       ///< chains that could not be straightened without crossing a wall
+    int braces = 0;        ///< walls that give a long tree its second root
     HeldLayer held;        ///< what is printed
     std::shared_ptr<const PrintedLayer> printed_above;  ///< on the layer above; nullptr: this is the top
+    std::vector<OverGap> over_gap;  ///< what the external supports of this layer hold up through the gap above them (settings.support_gap_layers)
 };
 
 /// Busy time of each stage in seconds, summed over threads.
@@ -46,12 +58,12 @@ using StageTimes = std::map<std::string, double>;
 /// to bottom, one at a time. At most a window of layers is alive at any time, whatever their number. The result does not
 /// depend on `threads` (0: all).
 ///
-/// `frame`: a box that the object does not reach, within which external supports stand; needed when settings.outside().
+/// `room`: where external supports stand; needed when settings.outside().
 ///
 /// Throws what its parts throw, and Error (interrupted) soon after `stop()` returned true.
 StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const TrackSettings& track_settings, int threads,
                         const std::function<std::shared_ptr<void>(const SweptLayer&, const LayerMaterial* below)>& finish,
                         const std::function<void(const SweptLayer&, std::shared_ptr<void>)>& collect,
-                        const std::function<bool()>& stop, const Box& frame = {});
+                        const std::function<bool()>& stop, const OutsideRoom* room = nullptr);
 
 }  // namespace ribvault

@@ -142,6 +142,14 @@ private:
         report_.boundaries = job_.boundaries;
         report_.min_area_mm2 = job_.min_area.get_d();
         report_.inside = job_.inside;
+        if (job_.support_gap) {
+            if (*job_.support_gap < 0) refuse("--support-gap must be 0 or more");
+            report_.support_gap_mm = job_.support_gap->get_d();
+            object_reach_ = std::max<Rational>(0, *job_.support_gap + nozzle / 2 - radius_);
+        }
+        if (job_.support_gap_layers < 0 || job_.support_gap_layers > 100) refuse("--support-gap-layers must lie between 0 and 100");
+        report_.support_gap_layers = job_.support_gap_layers;
+        report_.bed_only = job_.bed_only;
         const auto has_outline = [&](const GcodeLayer& layer) {
             const std::vector<char> outline = outline_tracks(print_, layer);
             return std::find(outline.begin(), outline.end(), 1) != outline.end();
@@ -162,7 +170,7 @@ private:
         const std::size_t limit = thread_limit(job_.threads);
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
         report_.threads = static_cast<int>(limit);
-        const LayerRules rules{radius_, job_.longest_bridge, report_.min_area_mm2, judged_, job_.inside};
+        const LayerRules rules{radius_, job_.longest_bridge, report_.min_area_mm2, judged_, job_.inside, object_reach_, job_.support_gap_layers, job_.bed_only};
         const int total = static_cast<int>(print_.layers.size());
         std::vector<JudgedLayer> judged(print_.layers.size());
         std::mutex reporting;
@@ -228,7 +236,7 @@ private:
     const Time::time_point start_;
     GcodePrint print_;
     PrintReport report_;
-    Rational radius_;
+    Rational radius_, object_reach_ = 0;
     std::vector<char> judged_;  ///< per feature
     std::optional<AtomicFile> json_, page_;
 };

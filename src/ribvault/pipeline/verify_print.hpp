@@ -25,6 +25,9 @@ struct VerifyJob {
     std::optional<Rational> longest_bridge;  ///< mm; default: bridges are not told apart
     bool inside = false;                    ///< judge only what lies inside the outline of the layer below
     Rational min_area = 0;                   ///< mm²; regions up to this do not count
+    std::optional<Rational> support_gap;     ///< mm; what lies within this and half a nozzle of the object's tracks counts as held up by them
+    int support_gap_layers = 0;              ///< the object may lie on material that is so many layers farther down
+    bool bed_only = false;                   ///< supports must lie on supports, down to the bed
     std::optional<std::filesystem::path> report, svg, html;  ///< what to write; svg is a folder
     bool boundaries = false;                 ///< the report has the exact boundary of every region
     int pictures = 12;                       ///< how many layers svg gets at most

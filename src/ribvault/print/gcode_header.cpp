@@ -102,6 +102,8 @@ void check_printer(const PrinterSettings& printer) {
     need(printer.filament_diameter > 0, "filament diameter (mm)", printer.filament_diameter, "positive");
     need(printer.nozzle_temperature >= 0, "nozzle temperature (°C)", printer.nozzle_temperature, "0 or more");
     need(printer.bed_temperature >= 0, "bed temperature (°C)", printer.bed_temperature, "0 (not heated) or more");
+    need(printer.support_extruder >= 0 && printer.support_extruder < 64, "tool of external supports", printer.support_extruder, "between 0 and 63");
+    need(printer.support_temperature >= 0, "temperature of external supports (°C)", printer.support_temperature, "0 (as the nozzle's) or more");
     need(printer.fan_percent >= 0 && printer.fan_percent <= 100, "fan (percent)", printer.fan_percent, "between 0 and 100");
     need(printer.print_speed > 0, "print speed (mm/s)", printer.print_speed, "positive");
     need(printer.support_speed > 0, "support speed (mm/s)", printer.support_speed, "positive");
@@ -155,8 +157,13 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
     if (printer.flavour == Flavour::reprapfirmware) text += "T0\n";
     if (heats_bed) text += "M140 S" + bed + " ; heat the bed\n";
     if (heats_nozzle) text += "M104 S" + nozzle + " ; heat the nozzle\n";
+    const std::string tool = "T" + std::to_string(printer.support_extruder) + " S" +
+                             std::to_string(printer.support_temperature > 0 ? printer.support_temperature : printer.nozzle_temperature);
+    const bool heats_tool = printer.support_extruder > 0 && settings.outside() && heats_nozzle;
+    if (heats_tool) text += "M104 " + tool + " ; heat the nozzle of the supports\n";
     if (heats_bed) text += "M190 S" + bed + " ; wait for the bed\n";
     if (heats_nozzle) text += "M109 S" + nozzle + " ; wait for the nozzle\n";
+    if (heats_tool) text += "M109 " + tool + " ; wait for it\n";
     if (printer.write_limits) text += limits_text(printer);
     text += fill_placeholders(start, "start_gcode", settings, printer, facts);
     text += "G21 ; millimetres\nG90 ; absolute coordinates\nM83 ; relative extrusion\n";
@@ -169,7 +176,10 @@ std::string gcode_footer(const Settings& settings, const PrinterSettings& printe
     std::string text = "; end of print\n";
     if (printer.fan_percent > 0) text += "M107 ; fan off\n";
     const std::string& end = printer.end_gcode;
-    if (!contains(end, "M104")) text += "M104 S0 ; nozzle off\n";
+    if (!contains(end, "M104")) {
+        text += "M104 S0 ; nozzle off\n";
+        if (printer.support_extruder > 0 && settings.outside()) text += "M104 T" + std::to_string(printer.support_extruder) + " S0 ; nozzle of the supports off\n";
+    }
     if (!contains(end, "M140") && printer.bed_temperature > 0) text += "M140 S0 ; bed off\n";
     text += fill_placeholders(end, "end_gcode", settings, printer, facts);
     if (!contains(end, "M84")) text += "M84 ; motors off\n";

@@ -37,31 +37,69 @@ SupportForest without_dots(const SupportForest& forest) {
 
 class Holder {
 public:
-    Holder(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Cavity* beside, const Settings& settings)
-        : shell_(std::move(shell)), forest_(settings.gaps == Gaps::proved ? without_dots(forest) : forest), above_(above), settings_(settings), beside_(beside) {
-        if (settings.gaps == Gaps::none)
-            for (auto [e, end] = edges(forest_); e != end; ++e) forest_[*e].to_junction = true;
+    Holder(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Cavity* beside, const PrintOverGap* over_gap, const Settings& settings)
+        : shell_(std::move(shell)), forest_(settings.gaps == Gaps::proved ? without_dots(forest) : forest), above_(above), over_gap_(over_gap), settings_(settings), beside_(beside) {
+        // What stands on nothing but supports is printed as it is proved.
+        for (auto [e, end] = edges(forest_); e != end; ++e)
+            if (settings.gaps == Gaps::none || (settings.bed_only && forest_[source(*e, forest_)].outside)) forest_[*e].to_junction = true;
     }
 
     HeldLayer run() {
         lay_supports();
         if (!above_) return std::move(held_);
-        held_.judgement.emplace(*above_, *held_.printed, settings_);
-        std::vector<OpenStretch> hanging = open();
+        judge();
+        std::vector<Hanging> hanging = open();
         for (int round = 0; settings_.gaps != Gaps::paper && !hanging.empty() && round < rounds; ++round) {
             if (!tracks_ && close_gaps(hanging) > 0)
                 lay_supports();
             else
                 patch(hanging, round);
             held_.mended = true;
-            held_.judgement->change_below(*held_.printed);
+            for (PrintPart& part : held_.parts) part.judgement.change_below(*held_.printed);
             hanging = open();
         }
+        if (settings_.outside() && settings_.support_gap_layers > 0 && settings_.gaps != Gaps::paper) patch_object_under_overhangs();
         for (const Patch& patch : patches_) held_.patch_tracks.push_back(patch.segment);
         return std::move(held_);
     }
 
 private:
+    struct Hanging {
+        const PrintedTrack* track;
+        OpenStretch stretch;
+        Segment place() const { return place_of(*track, stretch); }
+    };
+
+    void judge() {
+        const bool apart = settings_.outside() && settings_.support_gap_layers > 0;
+        std::vector<PrintedTrack> supports, object;
+        if (apart || settings_.bed_only)
+            for (const PrintedTrack& track : above_->tracks) (is_external_support(track) ? supports : object).push_back(track);
+        if (apart)
+            add_part(std::move(object), {}, false);
+        else
+            held_.parts.push_back({nullptr, PrintJudgement(*above_, *held_.printed, settings_)});
+        if (!supports.empty())
+            add_part(std::move(supports), [&settings = settings_](const PrintedLayer& below) {
+                if (!settings.bed_only) return counted_below(below.tracks, settings);
+                std::vector<PrintedTrack> holding;
+                std::copy_if(below.tracks.begin(), below.tracks.end(), std::back_inserter(holding), is_external_support);
+                return holding;
+            }, false);
+        if (over_gap_ && !over_gap_->hanging->tracks.empty())
+            add_part(over_gap_->hanging->tracks, [&settings = settings_, object = over_gap_->object](const PrintedLayer& below) {
+                std::vector<PrintedTrack> holding = counted_below(below.tracks, settings);
+                holding.insert(holding.end(), object.begin(), object.end());
+                return holding;
+            }, true);
+    }
+    void add_part(std::vector<PrintedTrack> tracks, PrintJudgement::Holding holding, bool over_gap) {
+        auto layer = std::make_shared<PrintedLayer>();
+        layer->tracks = std::move(tracks);
+        PrintJudgement judgement = holding ? PrintJudgement(*layer, *held_.printed, settings_, std::move(holding)) : PrintJudgement(*layer, *held_.printed, settings_);
+        held_.parts.push_back({std::move(layer), std::move(judgement), over_gap});
+    }
+
     void lay_supports() {
         held_.plan = shell_;
         append_support_paths(forest_, settings_, held_.plan);
@@ -70,23 +108,28 @@ private:
     }
 
     /// What of the layer above inside the outline is not held up.
-    std::vector<OpenStretch> open() const {
-        const PrintJudgement& judgement = *held_.judgement;
+    std::vector<Hanging> open() const {
+        std::vector<Hanging> all;
+        for (const PrintPart& part : held_.parts) append_open(part.judgement, all);
+        return all;
+    }
+    static void append_open(const PrintJudgement& judgement, std::vector<Hanging>& all) {
+        const std::vector<PrintedTrack>& tracks = judgement.above().tracks;
         std::vector<OpenStretch> stretches = judgement.open();
         // A track that is found wanting without a stretch that shows where is mended as a whole.
-        std::vector<char> shown(above_->tracks.size(), 0);
+        std::vector<char> shown(tracks.size(), 0);
         for (const OpenStretch& stretch : stretches) shown[stretch.track] = 1;
         for (std::size_t k = 0; k < shown.size(); ++k) {
             if (judgement.supported(k) || shown[k]) continue;
-            const PrintedTrack& track = above_->tracks[k];
+            const PrintedTrack& track = tracks[k];
             stretches.push_back({k, 0, std::hypot(track.b[0].get_d() - track.a[0].get_d(), track.b[1].get_d() - track.a[1].get_d())});
         }
         std::stable_sort(stretches.begin(), stretches.end(), [](const OpenStretch& a, const OpenStretch& b) { return a.track < b.track; });
-        return stretches;
+        for (const OpenStretch& stretch : stretches) all.push_back({&tracks[stretch.track], stretch});
     }
 
     /// Branches whose gap may be what lets something hang reach their junction from now on. How many walls are new.
-    int close_gaps(const std::vector<OpenStretch>& open) {
+    int close_gaps(const std::vector<Hanging>& open) {
         // What hangs lies within half a width of its stretch. Walls whose centre line is farther than ρ from that could hold its rim only;
         // closing their gaps too costs more than the patches that it saves.
         struct Place {
@@ -94,9 +137,8 @@ private:
             double reach;
         };
         std::vector<Place> places;
-        for (const OpenStretch& stretch : open) {
-            const PrintedTrack& track = above_->tracks[stretch.track];
-            places.push_back({place_of(track, stretch), track.width.get_d() / 2 * units_per_mm + static_cast<double>(settings_.support_radius + 4)});
+        for (const Hanging& hanging : open) {
+            places.push_back({hanging.place(), hanging.track->width.get_d() / 2 * units_per_mm + static_cast<double>(settings_.support_radius + 4)});
         }
         int closed = 0;
         for (auto [e, end] = edges(forest_); e != end; ++e) {
@@ -125,12 +167,17 @@ private:
     }
 
     /// Puts patches under what hangs and lays them with the tracks that are there. From now on those stay as they are.
-    void patch(const std::vector<OpenStretch>& open, int round) {
-        if (!tracks_) {
-            without_patches_ = std::move(held_.plan);
-            tracks_.emplace(without_patches_);
-        }
+    void patch(const std::vector<Hanging>& open, int round) {
+        begin_patches();
         add_patches(open, round);
+        lay_all_patches();
+    }
+    void begin_patches() {
+        if (tracks_) return;
+        without_patches_ = std::move(held_.plan);
+        tracks_.emplace(without_patches_);
+    }
+    void lay_all_patches() {
         held_.plan = without_patches_;
         held_.patch_length = lay_patches(patches_, *tracks_, held_.plan, settings_.nozzle);
         held_.printed = std::make_shared<const PrintedLayer>(printed_layer(held_.plan));
@@ -166,16 +213,17 @@ private:
     }
 
     /// The dot under a stretch that is nearest to what is there, where that may be asked for: not with a removal gap.
-    std::optional<PlacedDot> place(const OpenStretch& stretch) const {
+    std::optional<PlacedDot> place(const Hanging& hanging) const {
         if (beside_ && beside_->walls) return std::nullopt;
-        const PrintedTrack& track = above_->tracks[stretch.track];
+        const PrintedTrack& track = *hanging.track;
+        const OpenStretch& stretch = hanging.stretch;
         const Lane whole{place_of(track, {0, 0, HUGE_VAL}), round_to_lattice(track.width.get_d() * units_per_mm)};
-        return place_dot({whole, stretch.from_mm * units_per_mm, stretch.to_mm * units_per_mm}, material_near(place_of(track, stretch)), settings_.nozzle,
+        return place_dot({whole, stretch.from_mm * units_per_mm, stretch.to_mm * units_per_mm}, material_near(hanging.place()), settings_.nozzle,
                          settings_.support_radius);
     }
 
     /// In the first half of the rounds dots as near to the tracks as can be; what these do not reach, and what sampling missed, in another way.
-    void add_patches(const std::vector<OpenStretch>& open, int round) {
+    void add_patches(const std::vector<Hanging>& open, int round) {
         const std::size_t before = patches_.size();
         std::vector<Segment> loops;
         for (const PlannedTrack& track : shell_.tracks)
@@ -190,8 +238,8 @@ private:
             const double t = static_cast<double>(step) / d;
             return Point{p.x + round_to_lattice(t * static_cast<double>(near.x - p.x)), p.y + round_to_lattice(t * static_cast<double>(near.y - p.y))};
         };
-        for (const OpenStretch& stretch : open) {
-            const Segment hanging = place_of(above_->tracks[stretch.track], stretch);
+        for (const Hanging& stretch : open) {
+            const Segment hanging = stretch.place();
             const std::optional<PlacedDot> placed = round < rounds / 2 ? place(stretch) : std::nullopt;
             if (placed && !placed->needed) continue;
             const bool held = !placed && std::any_of(patches_.begin() + static_cast<std::ptrdiff_t>(before), patches_.end(), [&](const Patch& patch) {
@@ -222,7 +270,7 @@ private:
             TrackKind kind = TrackKind::support;
             if ((outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) && may_stand_outside(s)) {
                 kind = TrackKind::external_support;
-            } else if (beside_ && patch_object(hanging)) {
+            } else if (beside_ && (patch_object(hanging, settings_.reach_of_object()) || patch_beside_gap(hanging))) {
                 continue;
             } else if (outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) {
                 const Point middle{(hanging.a.x + hanging.b.x) / 2, (hanging.a.y + hanging.b.y) / 2};
@@ -248,7 +296,7 @@ private:
 
     /// Within a removal gap patches are the object's: where its slice is too thin to be printed, they are printed, in pieces short
     /// enough to follow its outline. Says no when the stretch is not over such a place.
-    bool patch_object(const Segment& hanging) {
+    bool patch_object(const Segment& hanging, Unit reach) {
         if (!beside_->walls) return false;
         const NearestSegment& near = gap_places().air.edges;
         const PointLocation& air = gap_places().air.location;
@@ -259,11 +307,98 @@ private:
             const double t = static_cast<double>(k) / static_cast<double>(pieces);
             const Point d = hanging.b - hanging.a, p = hanging.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))};
             at.push_back(air.locate(p) == Side::inside ? nearest_point(p, near.segments()[near.nearest(p).index]) : p);
-            if (length(at.back() - p) > static_cast<double>(settings_.reach_of_object())) return patches_.resize(before), false;
+            if (length(at.back() - p) > static_cast<double>(reach)) return patches_.resize(before), false;
             if (k > 0) patches_.push_back({{at[k - 1], at[k]}, TrackKind::support});
         }
         held_.patches += static_cast<int>(pieces);
         return true;
+    }
+
+    /// The allowed place nearest to p, if it can hold up all that a track there would: within ρ.
+    std::optional<Point> place_for_wall(Point p) {
+        const Place& walls = gap_places().walls;
+        if (walls.edges.empty() || walls.location.locate(p) == Side::inside) return walls.edges.empty() ? std::nullopt : std::optional(p);
+        const Point near = nearest_point(p, walls.edges.segments()[walls.edges.nearest(p).index]);
+        for (Unit ring = 1; ring <= 3; ++ring)
+            for (Unit dy = -ring; dy <= ring; ++dy)
+                for (Unit dx = -ring; dx <= ring; ++dx)
+                    if (const Point q{near.x + dx, near.y + dy}; walls.location.locate(q) == Side::inside)
+                        return squared_length(q - p) <= settings_.support_radius * settings_.support_radius ? std::optional(q) : std::nullopt;
+        return std::nullopt;
+    }
+
+    /// Where walls must keep off what is right under a stretch: patches at the nearest places where they need not. Says no when those are too far away.
+    bool patch_beside_gap(const Segment& hanging) {
+        if (!beside_->walls) return false;
+        const auto pieces = static_cast<std::size_t>(4 * length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
+        std::vector<Point> at;
+        for (std::size_t k = 0; k <= pieces; ++k) {
+            const double t = static_cast<double>(k) / static_cast<double>(pieces);
+            const Point d = hanging.b - hanging.a;
+            const std::optional<Point> place = place_for_wall(hanging.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))});
+            if (!place) return false;
+            if (at.empty() || at.back() != *place) at.push_back(*place);
+        }
+        const std::size_t before = patches_.size();
+        for (std::size_t k = 1; k < at.size(); ++k)
+            if (may_stand_outside({at[k - 1], at[k]})) patches_.push_back({{at[k - 1], at[k]}, TrackKind::external_support});
+        if (patches_.size() - before + 1 < at.size()) {  // some way between them is barred
+            patches_.resize(before);
+            for (const Point p : at) patches_.push_back({{p, p}, TrackKind::external_support});
+        }
+        if (patches_.size() == before) patches_.push_back({{at[0], at[0]}, TrackKind::external_support});
+        held_.patches += static_cast<int>(patches_.size() - before);
+        return true;
+    }
+
+    /// With a gap of layers: what hangs outside the outline within reach of the object's slice is the slice's to hold up, all else is held up farther down.
+    void patch_object_under_overhangs() {
+        PrintedLayer object;
+        std::remove_copy_if(above_->tracks.begin(), above_->tracks.end(), std::back_inserter(object.tracks), is_external_support);
+        const PrintJudgement judgement(object, *held_.printed, settings_, [&](const PrintedLayer& below) { return counted_below(below.tracks, settings_); });
+        std::vector<Hanging> hanging;
+        append_open(judgement, hanging);
+        if (hanging.empty()) return;
+        begin_patches();
+        const int before = held_.patches;
+        for (const Hanging& stretch : hanging) {
+            // In pieces: part of a stretch may hang beyond the object's reach.
+            const Segment whole = stretch.place();
+            const auto pieces = static_cast<std::size_t>(length(whole) / static_cast<double>(settings_.nozzle)) + 1;
+            const auto at = [&](std::size_t k) {
+                const double t = static_cast<double>(k) / static_cast<double>(pieces);
+                const Point d = whole.b - whole.a;
+                return whole.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))};
+            };
+            // Where the slice is not printed at its edge, the rim of what hangs may be within its reach though the centre line is not.
+            for (std::size_t k = 0; k < pieces; ++k)
+                if (!patch_object({at(k), at(k + 1)}, settings_.reach_of_object()) && !(edge_is_printed(at(k)) && edge_is_printed(at(k + 1))))
+                    patch_object({at(k), at(k + 1)}, settings_.reach_of_object() + settings_.nozzle / 2);
+        }
+        if (held_.patches == before) {
+            held_.plan = without_patches_;
+            if (!patches_.empty()) lay_all_patches();
+            return;
+        }
+        lay_all_patches();
+        held_.mended = true;
+        for (PrintPart& part : held_.parts) part.judgement.change_below(*held_.printed);
+    }
+
+    /// Is the place of the slice that is nearest to p covered by a track?
+    bool edge_is_printed(Point p) {
+        const Place& air = gap_places().air;
+        const Point foot = air.location.locate(p) == Side::inside ? nearest_point(p, air.edges.segments()[air.edges.nearest(p).index]) : p;
+        Box box;
+        box.add(foot);
+        box.grow(2 * settings_.nozzle);
+        bool printed = false;
+        tracks_->segments().visit(box, [&](std::uint32_t k) {
+            const PlanTracks::Place place = tracks_->place(k);
+            const Unit width = without_patches_.tracks[place.track].paths[place.path].width;
+            printed = printed || compare_distance(foot, tracks_->segments().segments()[k], width / 2 + 10) <= 0;
+        });
+        return printed;
     }
 
     /// A region with what it takes to look things up in it.
@@ -284,6 +419,7 @@ private:
     LayerPlan shell_;
     SupportForest forest_;
     const PrintedLayer* above_;
+    const PrintOverGap* over_gap_;
     const Settings& settings_;
     HeldLayer held_;
     const Cavity* beside_;
@@ -296,8 +432,9 @@ private:
 
 }  // namespace
 
-HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings, const Cavity* outside) {
-    return Holder(std::move(shell), forest, above, outside, settings).run();
+HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings, const Cavity* outside,
+                     const PrintOverGap* over_gap) {
+    return Holder(std::move(shell), forest, above, outside, over_gap, settings).run();
 }
 
 }  // namespace ribvault

@@ -14,11 +14,24 @@
 
 namespace ribvault {
 
+/// What external supports hold up through a gap of layers: the print of layer j outside the outline of layer j - 1.
+struct PrintOverGap {
+    std::shared_ptr<const PrintedLayer> hanging;
+    std::vector<PrintedTrack> object;  ///< of the layers of the gap, as they count below (counted_below)
+};
+
+/// Something judged over a layer.
+struct PrintPart {
+    std::shared_ptr<const PrintedLayer> above;  ///< what `judgement` is of, where it is not all of the layer above
+    PrintJudgement judgement;
+    bool over_gap = false;  ///< it is of what hangs over a gap
+};
+
 /// A layer that has another one on it.
 struct HeldLayer {
     LayerPlan plan;
     std::shared_ptr<const PrintedLayer> printed;  ///< the plan's extrusions
-    std::optional<PrintJudgement> judgement;      ///< of `above` over `printed`; nothing when there is no layer above
+    std::vector<PrintPart> parts; ///< what was judged over `printed`; nothing when there is no layer above
     bool mended = false;        ///< something was changed after the whole layer above had been looked at
     int closed_gaps = 0;        ///< branches printed up to their junction because the gap would have let something hang
     int patches = 0;            ///< short tracks added where closing gaps was not enough
@@ -40,8 +53,9 @@ struct HeldLayer {
 /// Patches lie inside the outline. Deterministic.
 ///
 /// With external supports (settings.outside()) all of `above` counts, inside the outline or not, and patches may lie
-/// outside it, where `outside` (slice/outside.hpp) lets walls stand.
+/// outside it, where `outside` (slice/outside.hpp) lets walls stand. Where they stand on the bed alone, or leave a gap of layers, external supports are judged
+/// over what may hold them up; with a gap, what hangs over `over_gap` counts in place of what hangs over this layer.
 HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings,
-                     const Cavity* outside = nullptr);
+                     const Cavity* outside = nullptr, const PrintOverGap* over_gap = nullptr);
 
 }  // namespace ribvault

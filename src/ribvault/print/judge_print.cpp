@@ -60,6 +60,16 @@ std::array<double, 2> sum(const std::vector<std::array<double, 2>>& lengths) {
 
 }  // namespace
 
+bool is_external_support(const PrintedTrack& track) { return track.feature == static_cast<int>(TrackKind::external_support); }
+
+std::vector<PrintedTrack> counted_below(std::vector<PrintedTrack> tracks, const Settings& settings) {
+    const Rational wider = 2 * Rational(printed_length(settings.reach_of_object() - settings.support_radius));
+    if (settings.outside() && wider != 0)
+        for (PrintedTrack& t : tracks)
+            if (!is_external_support(t)) t.width = Rational(Rational(t.width) + wider);
+    return tracks;
+}
+
 Segment place_of(const PrintedTrack& track, const OpenStretch& stretch) {
     const Segment whole{lattice(track.a), lattice(track.b)};
     const double l = length(whole);
@@ -73,10 +83,19 @@ Segment place_of(const PrintedTrack& track, const OpenStretch& stretch) {
 
 PrintJudgement::PrintJudgement(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings)
     : above_(&above), below_(&below), settings_(&settings) {
-    if (!settings.outside()) outside_ = stretches_outside(above, below);
+    if (!settings.outside() || settings.support_gap_layers > 0) outside_ = stretches_outside(above, below);
+    look_at_all();
+}
+
+PrintJudgement::PrintJudgement(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings, Holding holding)
+    : above_(&above), below_(&below), settings_(&settings), holding_(std::move(holding)) {
+    look_at_all();
+}
+
+void PrintJudgement::look_at_all() {
     lower_ = material_below();
-    supported_.assign(above.tracks.size(), 1);
-    std::vector<std::size_t> all(above.tracks.size());
+    supported_.assign(above_->tracks.size(), 1);
+    std::vector<std::size_t> all(above_->tracks.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     look(all, lower_);
 }
@@ -87,7 +106,7 @@ void PrintJudgement::change_below(const PrintedLayer& below) {
     std::swap(lower_, now);
     const std::vector<PrintedTrack> changed = difference(lower_, now);
     if (changed.empty()) return;
-    if (std::any_of(changed.begin(), changed.end(), [](const PrintedTrack& t) { return t.outline; })) {
+    if (!holding_ && std::any_of(changed.begin(), changed.end(), [](const PrintedTrack& t) { return t.outline; })) {
         const StageCounts before = stages_;
         *this = PrintJudgement(*above_, below, *settings_);
         stages_ += before;
@@ -98,13 +117,9 @@ void PrintJudgement::change_below(const PrintedLayer& below) {
     look(again, chosen(lower_, those_near(lower_, chosen(above_->tracks, again), rho)));
 }
 
-/// With a removal gap the object's tracks hold up what is within it: they count as so much wider (Settings::reach_of_object).
 std::vector<PrintedTrack> PrintJudgement::material_below() const {
-    std::vector<PrintedTrack> lower = below_->tracks;
-    const Rational wider = 2 * Rational(printed_length(settings_->reach_of_object() - settings_->support_radius));
-    if (settings_->outside() && wider != 0)
-        for (PrintedTrack& t : lower)
-            if (t.feature != static_cast<int>(TrackKind::external_support)) t.width = Rational(Rational(t.width) + wider);
+    if (holding_) return holding_(*below_);
+    std::vector<PrintedTrack> lower = counted_below(below_->tracks, *settings_);
     lower.insert(lower.end(), outside_.begin(), outside_.end());
     return lower;
 }
@@ -148,6 +163,7 @@ PrintVerdict PrintJudgement::verdict() const {
         verdict.external_mm = sum(hangs.unsupported_length);
         verdict.stages += hangs.stages;
     };
+    if (holding_ || settings_->support_gap_layers > 0) return verdict;
     if (settings_->outside() && settings_->reach_of_object() > settings_->support_radius) external(*above_);
     if (!outside_.empty()) {
         PrintedLayer upper;

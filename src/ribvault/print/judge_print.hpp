@@ -1,6 +1,7 @@
 // Equation (2) for the print of a layer over the print below it, and again after that one was changed.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "ribvault/settings.hpp"
@@ -10,7 +11,8 @@
 namespace ribvault {
 
 /// What of `above`, the print of layer i + 1, the print of layer i holds up, decided exactly and for all of it. Without external
-/// supports `above` outside the outline of the layer below is not judged by `open` (verify/outside_outline.hpp).
+/// supports `above` outside the outline of the layer below is not judged by `open` (verify/outside_outline.hpp); with such that leave a gap of layers
+/// it is not judged either, for it is held up farther down.
 ///
 /// A change of the layer below needs no look at all of `above`: whether a track is held up depends on nothing but the tracks below that
 /// come within half its width + ρ of its centre line. When those are the same as before, so is the answer.
@@ -18,6 +20,9 @@ namespace ribvault {
 class PrintJudgement {
 public:
     PrintJudgement(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings);
+    /// All of `above`, over what `holding` makes of a layer below.
+    using Holding = std::function<std::vector<PrintedTrack>(const PrintedLayer& below)>;
+    PrintJudgement(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings, Holding holding);
 
     /// Brings everything up to date with `below` in place of the layer that was there. What changed is found here, by comparing all
     /// tracks of both.
@@ -31,13 +36,17 @@ public:
     /// removal gap the object's tracks hold up what is within settings.reach_of_object() of them, and external_mm is what is farther than ρ.
     PrintVerdict verdict() const;
 
+    const PrintedLayer& above() const { return *above_; }
+
 private:
+    void look_at_all();
     std::vector<PrintedTrack> material_below() const;
     void look(const std::vector<std::size_t>& which, std::vector<PrintedTrack> lower);
 
     const PrintedLayer* above_;
     const PrintedLayer* below_;
     const Settings* settings_;
+    Holding holding_;                    ///< or the layer below with `outside_`
     std::vector<PrintedTrack> outside_;  ///< of `above`, outside the outline; counts as held up
     std::vector<PrintedTrack> lower_;    ///< everything that holds `above` up
     std::vector<char> supported_;        ///< by track above
@@ -47,6 +56,11 @@ private:
 
 /// PrintJudgement(above, below, settings).verdict().
 PrintVerdict judge_print(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings);
+
+bool is_external_support(const PrintedTrack& track);
+/// A layer's tracks as they count for what lies on them: with a removal gap the object's are as much wider as it holds up what is within it
+/// (Settings::reach_of_object).
+std::vector<PrintedTrack> counted_below(std::vector<PrintedTrack> tracks, const Settings& settings);
 
 /// The place of a stretch of `track` as a segment of the lattice.
 Segment place_of(const PrintedTrack& track, const OpenStretch& stretch);

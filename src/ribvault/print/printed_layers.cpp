@@ -42,6 +42,12 @@ PrintedLayer layer_above(const GcodePrint& print, std::size_t entry) {
     return above;
 }
 
+PrintedLayer layer_below(const GcodePrint& print, std::size_t entry) {
+    PrintedLayer material{to_rational(print.layers[entry].z), {}, {}};
+    append(print.layers[entry], {}, -2 * arc_bound, material);
+    return material;
+}
+
 PrintedLayer material_below(const GcodePrint& print, std::size_t entry) {
     const GcodeLayer& layer = print.layers[entry];
     PrintedLayer material{to_rational(layer.z) - in_mm(layer.height), {}, {}};

@@ -16,6 +16,9 @@ PrintedLayer layer_above(const GcodePrint& print, std::size_t entry);
 /// outline_tracks says.
 PrintedLayer material_below(const GcodePrint& print, std::size_t entry);
 
+/// An entry as what holds others up; chords are as much narrower.
+PrintedLayer layer_below(const GcodePrint& print, std::size_t entry);
+
 /// Per track of the entry: 1 when it is part of a closed loop of outer perimeter (a feature named so), which bounds the object:
 /// tracks that follow each other without a travel and end exactly where they began.
 std::vector<char> outline_tracks(const GcodePrint& print, const GcodeLayer& layer);

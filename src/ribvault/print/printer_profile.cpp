@@ -94,6 +94,8 @@ const std::map<std::string, Setter>& keys() {
         {"filament_diameter", decimal(&P::filament_diameter)},
         {"nozzle_temperature", integer(&P::nozzle_temperature)},
         {"bed_temperature", integer(&P::bed_temperature)},
+        {"support_extruder", integer(&P::support_extruder)},
+        {"support_temperature", integer(&P::support_temperature)},
         {"fan_percent", decimal(&P::fan_percent)},
         {"print_speed", decimal(&P::print_speed)},
         {"support_speed", decimal(&P::support_speed)},

@@ -64,6 +64,12 @@ struct Writer {
         push_filament(printer.retraction + surplus);
         statistics.prime_surplus += surplus;
     }
+    void change_tool(int to) {
+        text += 'T';
+        append_integer(text, to);
+        text += '\n';
+        feed_rate = -1;
+    }
     void rise(Unit to, Unit by) {
         text += "G0 Z";
         append_decimal(text, to);
@@ -136,6 +142,7 @@ double longest_detour(const PrinterSettings& printer) { return printer.longest_d
 bool touch(TrackEnd a, TrackEnd b) { return 2 * length(b.at - a.at) <= static_cast<double>(a.width + b.width); }
 
 bool must_retract(const Travel& way, TrackEnd from, TrackEnd to, const PrinterSettings& printer) {
+    if (from.tool != to.tool) return true;
     if (way.leaves_island) return true;
     return !touch(from, to) && way.open_air > printer.retract_over * static_cast<double>(units_per_mm);
 }
@@ -144,6 +151,8 @@ double speed_of(const ToolPath& path, int layer, const PrinterSettings& printer)
     if (layer == 0) return printer.first_layer_speed;
     return is_support(path.kind) ? printer.support_speed : printer.print_speed;
 }
+
+int tool_of(const ToolPath& path, const PrinterSettings& printer) { return path.kind == TrackKind::external_support ? printer.support_extruder : 0; }
 
 Unit height_of(int layer, const Settings& settings) { return layer == 0 ? settings.first_layer_height : settings.layer_height; }
 
@@ -187,16 +196,17 @@ LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Setti
     // `next` is printed after `path`, if anything is.
     const auto print = [&](const ToolPath& path, const ToolPath* next) {
         const bool joined = path.on_track || (previous && end_of(*previous) == path.points.front()) || (next && next->points.front() == end_of(path));
-        const TrackEnd start{path.points.front(), path.width};
+        const TrackEnd start{path.points.front(), path.width, tool_of(path, printer)};
         if (!previous) {
             out.first = start, out.surplus = with_surplus(path);
-        } else if (const TrackEnd end{end_of(*previous), previous->width}; end.at != start.at) {
+        } else if (const TrackEnd end{end_of(*previous), previous->width, tool_of(*previous, printer)}; end.at != start.at || end.tool != start.tool) {
             Travel way = map.travel(end.at, start.at, longest_detour(printer));
             // Between skirt and object, and along them, nothing keeps the nozzle inside.
             if (path.kind == TrackKind::skirt || previous->kind == TrackKind::skirt)
                 way = {{start.at}, length(start.at - end.at), !touch(end, start), 0};
             const bool retracts = must_retract(way, end, start, printer);
             if (retracts) writer.retract();
+            if (end.tool != start.tool) writer.change_tool(start.tool);
             writer.travel(end.at, way);
             if (retracts) writer.prime(with_surplus(path));
         }
@@ -214,7 +224,7 @@ LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Setti
     };
     for (const ToolPath& path : beside) print(path, nullptr);
     for (std::size_t i = 0; i < layer.paths.size(); ++i) print(layer.paths[i], i + 1 < layer.paths.size() ? &layer.paths[i + 1] : nullptr);
-    if (previous) out.last = TrackEnd{end_of(*previous), previous->width};
+    if (previous) out.last = TrackEnd{end_of(*previous), previous->width, tool_of(*previous, printer)};
     out.body = std::move(writer.text);
     out.statistics = writer.statistics;
     out.statistics.seconds = motion_seconds(writer.moves, printer.limits);
@@ -240,6 +250,9 @@ std::string gcode_joint(const LayerText* below, const LayerText& layer, const Tr
     }
     writer.rise(top_of_layer(layer.layer, settings), height_of(layer.layer, settings));
     if (layer.first) {
+        // After the header the tool is T0; after a layer without tracks it may be either.
+        const int tool = knows_start ? below->last->tool : 0;
+        if (layer.first->tool != tool || (below && !knows_start && printer.support_extruder > 0)) writer.change_tool(layer.first->tool);
         writer.travel(knows_start ? below->last->at : layer.first->at, way);
         if (retracted) writer.prime(layer.surplus);
     }

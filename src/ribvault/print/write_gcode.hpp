@@ -32,6 +32,7 @@ struct PrintStatistics {
 struct TrackEnd {
     Point at;
     Unit width = 0;
+    int tool = 0;  ///< that prints the track
 };
 
 /// A layer without the way to it from the layer below, so that layers can be written in any order.
@@ -55,6 +56,9 @@ Unit top_of_layer(int layer, const Settings& settings);
 /// air; not when the tracks that it joins touch at their ends (Section 5.1). After a retraction a support path is primed with
 /// (1 + prime_surplus) times the retraction, unless it starts within `surplus_clearance` of the centre line of a perimeter or
 /// a thin wall.
+///
+/// External supports are printed by the tool `support_extruder`. A change of tool comes with a retraction of the one and a prime of the other,
+/// nothing is purged.
 ///
 /// Coordinates are the lattice's, exactly. A track of width w extrudes w times layer height mm³ per mm, a rectangular
 /// cross-section as the paper counts material; a dot (path of one point) a disc of that width and height, in place. E

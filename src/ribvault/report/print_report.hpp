@@ -91,6 +91,9 @@ struct PrintReport {
     double min_area_mm2 = 0;
     bool boundaries = false;               ///< whether the JSON has the regions' boundaries
     bool inside = false;  ///< only what lies inside the outline of the layer below was judged
+    double support_gap_mm = 0;     ///< what lies within this and half a nozzle of the object's tracks counted as held up by them
+    int support_gap_layers = 0;    ///< the object could lie on material so many layers farther down
+    bool bed_only = false;         ///< supports had to lie on supports
 
     std::vector<HangingFeature> features;
     std::vector<HangingLayer> layers;

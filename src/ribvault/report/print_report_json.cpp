@@ -150,7 +150,10 @@ std::string to_json(const PrintReport& r) {
                         {"filament_source", r.filament_source},
                         {"allow_bridges_mm", r.longest_bridge_mm ? Json(*r.longest_bridge_mm) : Json(nullptr)},
                         {"min_area_mm2", r.min_area_mm2},
-                        {"inside", r.inside}};
+                        {"inside", r.inside},
+                        {"support_gap_mm", r.support_gap_mm},
+                        {"support_gap_layers", r.support_gap_layers},
+                        {"bed_only", r.bed_only}};
     const Json verdict{{"supported", r.supported}, {"layers", r.layer_count}, {"layers_unsupported", unsupported}, {"stages", stages(r.stages)}};
     const Json totals{{"length_mm", measured(r.length_mm)},
                       {"unsupported_mm", bounds(r.unsupported_mm)},

@@ -37,6 +37,7 @@ void sum_up(RunReport& report) {
         t.print_seconds += layer.print_seconds;
         t.gaps += layer.gaps;
         t.wide_trees += layer.wide_trees;
+        t.braces += layer.braces;
         if (layer.slenderness > t.slenderness) t.slenderness = layer.slenderness, t.slenderest_layer = layer.layer;
         t.closed_gaps += layer.closed_gaps;
         t.patches += layer.patches;

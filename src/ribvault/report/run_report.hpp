@@ -43,6 +43,7 @@ struct LayerReport {
     double print_seconds = 0;        ///< estimated, acceleration-limited
     int trees = 0;           ///< connected components of S_i
     int wide_trees = 0;      ///< of these, printed with several tracks side by side
+    int braces = 0;          ///< walls added here that give a long tree its second root
     double slenderness = 0;  ///< greatest free height over width of its walls (vault/wall_stability.hpp)
     double slender_standing_mm = 0, slender_to_root_mm = 0;  ///< there: the wall's height above the layer, the way to a root
     std::array<double, 2> slender_at{0, 0};                  ///< there, mm
@@ -82,6 +83,7 @@ struct RunTotals {
     double slenderness = 0;     ///< the greatest of all layers
     int slenderest_layer = 0;   ///< the lowest layer that has it; 0 without walls
     long wide_trees = 0;
+    long braces = 0;
     long gaps = 0;
     long closed_gaps = 0;
     long patches = 0;

@@ -28,6 +28,7 @@ struct Cavity {
     Region inner;
     bool outside = false;  ///< not C_i but what lies outside O_i within a frame (slice/outside.hpp)
     std::optional<Region> walls;  ///< where centre lines of walls may run, when that is not all of `region`
+    bool on_bed = false;  ///< the object holds up no external support: these stand on each other, down to the bed
 };
 /// The region, pulled in by a few lattice units where its contours cross by a rounding until they do not.
 Region uncross(Region region);

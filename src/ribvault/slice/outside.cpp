@@ -16,14 +16,17 @@ Cavity make_outside(const Slice& slice, const Box& frame, const Settings& s) {
     // On the object's side of the region's boundary is object, as it is shell on the shell's side of a cavity's.
     Cavity outside = make_cavity(slice.layer, complement(offset(slice.rounded, -clip_rounding), frame), s);
     outside.outside = true;
-    if (s.support_gap > 0) {
-        // Arcs become chords of their own circle; the last of an arc may be half as long again as the others, so that it cuts off
-        // 9/4 of the tolerance. Clipped ends and vertices are rounded by up to four lattice units after this; ten keep them off.
-        const double tolerance = static_cast<double>(s.slack) / 2;
-        const Region kept_off = offset(slice.rounded, static_cast<double>(s.support_gap + s.nozzle / 2) + 2.5 * tolerance + 10, ClipperLib::jtRound, tolerance);
-        outside.walls = uncross(complement(kept_off, frame));
-    }
     return outside;
+}
+
+Region off_the_object(const std::vector<std::shared_ptr<const Slice>>& slices, const Box& frame, const Settings& s) {
+    Region object;
+    for (const auto& slice : slices) object = object.empty() ? slice->rounded : clip(ClipperLib::ctUnion, object, slice->rounded);
+    // Arcs become chords of their own circle; the last of an arc may be half as long again as the others, so that it cuts off
+    // 9/4 of the tolerance. Clipped ends and vertices are rounded by up to four lattice units after this; ten keep them off.
+    const double tolerance = static_cast<double>(s.slack) / 2;
+    const Region kept_off = offset(object, static_cast<double>(s.support_gap + s.nozzle / 2) + 2.5 * tolerance + 10, ClipperLib::jtRound, tolerance);
+    return uncross(complement(kept_off, frame));
 }
 
 Region overhang_outside(const Cavity& outside, const Cavity& outside_above, const Cavity& cavity_above, const Settings& s) {

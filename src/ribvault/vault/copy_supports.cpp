@@ -50,7 +50,7 @@ public:
         for (auto [e, end] = edges(above_); e != end; ++e, ++index) copy_edge(source(*e, above_), target(*e, above_), index);
         for (std::size_t v = 0; v < inside_.size(); ++v) {
             const bool dot = out_degree(v, above_) == 0;
-            if (dot && (inside_[v] || !shell_holds_tracks_)) result_.inherited.push_back({above_[v].at, above_[v].at});
+            if (dot && (inside_[v] || !shell_holds_tracks_)) inherit({above_[v].at, above_[v].at}, v);
             if (!above_[v].root || !inside_[v] || (!dot && vertex_[v] < 0)) continue;
             if (above_[v].free || !boundary_.has_shell())
                 stand(v);
@@ -76,6 +76,11 @@ private:
         if (!own.root) own.root = own.free = true;
     }
 
+    void inherit(const Segment& piece, std::size_t v) {
+        result_.inherited.push_back(piece);
+        result_.inherited_outside.push_back(above_[v].outside);
+    }
+
     void add(std::size_t a, std::size_t b, std::int32_t origin) {
         add_edge(a, b, result_.forest);
         result_.origin.push_back(origin);
@@ -85,11 +90,11 @@ private:
         const Segment s{above_[a].at, above_[b].at};
         find_meetings(s, boundary_, meetings_);
         // Even a wall inside the shell may reach into the cavity by more than the shell holds up.
-        if (!shell_holds_tracks_) result_.inherited.push_back(s);
+        if (!shell_holds_tracks_) inherit(s, a);
         if (meetings_.empty()) {
             if (!inside_[a]) return;
             add(vertex(a), vertex(b), index);
-            if (shell_holds_tracks_) result_.inherited.push_back(s);
+            if (shell_holds_tracks_) inherit(s, a);
             return;
         }
         // Between two meetings the wall is on one side; which, is read off at the rounded middle: what to keep of a wall
@@ -100,7 +105,7 @@ private:
             if (squared_length(to - from) <= root_tolerance * root_tolerance ||
                 boundary_.location.locate(middle) != Side::inside) {
                 // Held against what is below like any other piece, for all its last nanometres may reach into the cavity.
-                if (shell_holds_tracks_ && at_boundary(middle)) result_.inherited.push_back({from, to});
+                if (shell_holds_tracks_ && at_boundary(middle)) inherit({from, to}, a);
                 if (k == 0 && inside_[a]) anchor(a);
                 if (k == meetings_.size() && inside_[b]) anchor(b);
                 continue;
@@ -111,7 +116,7 @@ private:
             const std::size_t va = k == 0 && inside_[a] ? vertex(a) : new_root(from, k <= 1, a);
             const std::size_t vb = k == meetings_.size() && inside_[b] ? vertex(b) : new_root(to, k + 1 >= meetings_.size(), b);
             add(va, vb, index);
-            if (shell_holds_tracks_) result_.inherited.push_back({from, to});
+            if (shell_holds_tracks_) inherit({from, to}, a);
         }
     }
 

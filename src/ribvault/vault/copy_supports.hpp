@@ -10,6 +10,7 @@ struct CopiedSupports {
     SupportForest forest;
     std::vector<std::int32_t> origin;  ///< per edge of forest, in its order: the edge above it is a piece of, -1 for prolongations
     std::vector<Segment> inherited;    ///< the pieces of the layer above inside the cavity, where they were
+    std::vector<char> inherited_outside;  ///< of each: its tree stood outside
 };
 
 /// Clips every wall to C_i; where the clip cuts, a root is placed on the shell, so that a tree cut by an inner wall

@@ -30,9 +30,9 @@ Region circumscribed_stadium(const Segment& s, Unit r) {
 
 }  // namespace
 
-Region unsupported_walls(const std::vector<Segment>& inherited, const SupportForest& propagated, const Cavity& cavity,
+Region unsupported_walls(const std::vector<Segment>& inherited, const SupportForest& propagated, const Region* within,
                          const Settings& settings) {
-    if (inherited.empty() || cavity.deep.empty()) return {};
+    if (inherited.empty() || (within && within->empty())) return {};
     std::vector<Segment> walls;
     Box box;
     for (auto [e, end] = edges(propagated); e != end; ++e) {
@@ -58,7 +58,7 @@ Region unsupported_walls(const std::vector<Segment>& inherited, const SupportFor
         for (Contour& contour : circumscribed_stadium(piece, settings.nozzle / 2)) stadiums.push_back(std::move(contour));
     }
     if (stadiums.empty()) return {};
-    return clip(ClipperLib::ctIntersection, cavity.deep, stadiums);
+    return within ? clip(ClipperLib::ctIntersection, *within, stadiums) : stadiums;
 }
 
 }  // namespace ribvault

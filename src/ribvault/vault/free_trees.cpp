@@ -5,35 +5,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "ribvault/vault/tree_walk.hpp"
+
 namespace ribvault {
 namespace {
 
 using Vertex = std::size_t;
-
-/// A tree's vertices in the order of a walk from one of them.
-struct Walk {
-    std::vector<Vertex> order, parent;
-    std::vector<double> distance;  ///< from the start, by position in `order`
-    std::size_t farthest() const { return static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin()); }
-};
-
-Walk walk_from(Vertex start, const SupportForest& forest) {
-    Walk walk{{start}, {start}, {0}};
-    for (std::size_t k = 0; k < walk.order.size(); ++k) {
-        const Vertex v = walk.order[k], from = walk.parent[k];
-        const double here = walk.distance[k];
-        bool parent_met = k == 0;
-        for (auto [w, end] = adjacent_vertices(v, forest); w != end; ++w) {
-            if (!parent_met && *w == from) {
-                parent_met = true;
-                continue;
-            }
-            walk.order.push_back(*w), walk.parent.push_back(v);
-            walk.distance.push_back(here + length(forest[*w].at - forest[v].at));
-        }
-    }
-    return walk;
-}
 
 /// The middle of a tree: on the edge from `vertex` to `next` of its longest path, `along` units from the former.
 struct Middle {
@@ -41,8 +18,8 @@ struct Middle {
     double along;
 };
 Middle middle_of(Vertex any, const SupportForest& forest) {
-    const Walk first = walk_from(any, forest);
-    const Walk path = walk_from(first.order[first.farthest()], forest);
+    const TreeWalk first = walk_from(any, forest);
+    const TreeWalk path = walk_from(first.order[first.farthest()], forest);
     std::size_t at = path.farthest();
     const double half = path.distance[at] / 2;
     while (path.distance[at] > half && path.order[at] != path.parent[at]) {
@@ -62,7 +39,7 @@ Vertex middle_vertex(Vertex any, const SupportForest& forest) {
 
 /// The track of a tree on all layers down to the bed while its tips run back to the root.
 double track_down(Vertex root, const SupportForest& forest, int layers, Unit step) {
-    const Walk walk = walk_from(root, forest);
+    const TreeWalk walk = walk_from(root, forest);
     std::vector<std::size_t> place(num_vertices(forest));
     for (std::size_t k = 0; k < walk.order.size(); ++k) place[walk.order[k]] = k;
     std::vector<double> reach(walk.order.size(), 0);
@@ -92,7 +69,7 @@ void root_trees(SupportForest& forest) {
     std::vector<char> seen(num_vertices(forest), 0);
     for (auto [v, end] = vertices(forest); v != end; ++v) {
         if (seen[*v]) continue;
-        const Walk tree = walk_from(*v, forest);
+        const TreeWalk tree = walk_from(*v, forest);
         Vertex shell = forest.null_vertex(), free = shell;
         for (const Vertex w : tree.order) {
             seen[w] = 1;

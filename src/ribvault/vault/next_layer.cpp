@@ -1,6 +1,7 @@
 #include "ribvault/vault/next_layer.hpp"
 
 #include "ribvault/slice/lattice_clip.hpp"
+#include "ribvault/vault/brace_trees.hpp"
 #include "ribvault/vault/copy_supports.hpp"
 #include "ribvault/vault/detect_unsupported.hpp"
 #include "ribvault/vault/erode_supports.hpp"
@@ -31,6 +32,17 @@ Region within_reach(const Region& region, const Region& walls, const Settings& s
                 offset(walls, static_cast<double>(settings.nozzle / 2 + settings.support_radius) - 3 * slack, ClipperLib::jtRound, slack));
 }
 
+/// What of the layer above neither the supports nor the shell hold up; where the object holds up none, what the supports do not of those outside.
+Region unsupported_pieces(const CopiedSupports& copied, const SupportForest& propagated, const Cavity& cavity, const Settings& settings) {
+    if (!cavity.on_bed) return unsupported_walls(copied.inherited, propagated, &cavity.deep, settings);
+    std::vector<Segment> inside, outside;
+    for (std::size_t k = 0; k < copied.inherited.size(); ++k) (copied.inherited_outside[k] ? outside : inside).push_back(copied.inherited[k]);
+    Region unsupported = unsupported_walls(inside, propagated, &cavity.deep, settings);
+    const Region more = unsupported_walls(outside, propagated, nullptr, settings);
+    unsupported.insert(unsupported.end(), more.begin(), more.end());
+    return unsupported;
+}
+
 }  // namespace
 
 LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Region& overhang, const Settings& settings) {
@@ -50,7 +62,7 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         };
         ErodedSupports eroded;
         if (settings.propagation == Propagation::shrink) {
-            ShrunkSupports shrunk = shrink_supports(copied.forest, boundary, settings.erosion_step, settings.pillar_length);
+            ShrunkSupports shrunk = shrink_supports(copied.forest, boundary, settings.erosion_step, settings.pillar_length, cavity.outside ? 0 : settings.brace);
             note_continued(shrunk.survives);
             propagated = shrunk.left_cavity ? clip_again(shrunk.forest, boundary) : std::move(shrunk.forest);
         } else {
@@ -64,12 +76,15 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
             propagated = straightened.left_cavity ? clip_again(straightened.forest, boundary) : std::move(straightened.forest);
         }
         if (cavity.outside) centre_free_trees(propagated);
-        result.unsupported = unsupported_walls(copied.inherited, propagated, cavity, settings);
+        result.unsupported = unsupported_pieces(copied, propagated, cavity, settings);
         result.unsupported.insert(result.unsupported.end(), overhang.begin(), overhang.end());
         if (cavity.walls) result.unsupported = within_reach(result.unsupported, *cavity.walls, settings);
         const std::uint64_t layer_seed = settings.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(cavity.layer);
         result.forest = grow_supports(std::move(propagated), result.unsupported, boundary, layer_seed, settings);
-        if (!cavity.outside) mark_wide_trees(result.forest, settings);
+        if (!cavity.outside) {
+            result.braces = brace_trees(result.forest, boundary, settings.brace);
+            mark_wide_trees(result.forest, settings);
+        }
     }
     if (cavity.outside)  // where walls have one line, also those that came out of a cavity
         for (auto [v, end] = vertices(result.forest); v != end; ++v) result.forest[*v].outside = true, result.forest[*v].wide = false;

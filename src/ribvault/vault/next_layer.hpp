@@ -11,6 +11,7 @@ struct LayerSupports {
     SupportForest forest;
     Region unsupported;  ///< U_{i+1} (a superset, see detection), for pictures
     int blocked = 0;     ///< chains that could not be straightened without crossing another wall
+    int braces = 0;      ///< walls to a second root added here (settings.brace)
 };
 
 /// S_i under `above` = S_{i+1}. `overhang` is overhang_over_cavity(C_i, ...). Marks in `above` the branches that do not

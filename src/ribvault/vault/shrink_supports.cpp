@@ -16,8 +16,8 @@ constexpr int sweeps = 10;
 
 class Shrinker {
 public:
-    Shrinker(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length)
-        : boundary_(boundary), step_(step), grid_(bounds(forest), units_per_mm, step + 2) {
+    Shrinker(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length, Unit braced)
+        : boundary_(boundary), step_(step), braced_(static_cast<double>(braced)), grid_(bounds(forest), units_per_mm, step + 2) {
         for (auto [v, end] = vertices(forest); v != end; ++v) nodes_.push_back({forest[*v].at, forest[*v].root, {forest[*v].at}, {}, forest[*v]});
         for (auto [e, end] = edges(forest); e != end; ++e) add_wall(source(*e, forest), target(*e, forest));
         input_walls_ = walls_.size();
@@ -228,7 +228,7 @@ private:
         return false;
     }
 
-    /// Trees with several roots fall apart in the middle of the longest wall between two of them.
+    /// Trees with several roots fall apart in the middle of the way between two of them, once no part is longer than a braced tree.
     void cut_between_roots() {
         const std::size_t n = nodes_.size();
         std::vector<std::int64_t> owner(n, -1);
@@ -261,7 +261,7 @@ private:
             const std::size_t a = walls_[w].a, b = walls_[w].b;
             if (owner[a] < 0 || owner[b] < 0 || owner[a] == owner[b]) continue;
             const double l = length(nodes_[b].at - nodes_[a].at), at = (distance[b] + l - distance[a]) / 2;
-            if (l < 4) continue;
+            if (l < 4 || (braced_ > 0 && distance[a] + at > braced_)) continue;
             const double t = std::clamp(at / l, 1 / l, 1 - 1 / l);
             const Point p = rounded(vec(nodes_[a].at) + t * (vec(nodes_[b].at) - vec(nodes_[a].at)));
             if (p == nodes_[a].at || p == nodes_[b].at) continue;
@@ -356,6 +356,7 @@ private:
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
     const CavityBoundary& boundary_;
     Unit step_;
+    double braced_;  ///< 0: trees are not
     std::vector<Node> nodes_;
     std::vector<Wall> walls_;
     std::vector<std::pair<std::size_t, std::size_t>> cut_;
@@ -365,8 +366,8 @@ private:
 
 }  // namespace
 
-ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length) {
-    return Shrinker(forest, boundary, step, pillar_length).run();
+ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length, Unit braced) {
+    return Shrinker(forest, boundary, step, pillar_length, braced).run();
 }
 
 }  // namespace ribvault

@@ -22,7 +22,9 @@ struct ShrunkSupports {
 /// decided exactly, or a point within `step` of both its ends), so equation (1) holds as for the paper's two operators. No two
 /// walls cross that did not before.
 ///
+/// `braced` > 0 (vault/brace_trees.hpp): a tree is cut between its roots only where no part would be longer.
+///
 /// Roots of trees that stand free stay where they are, and of such a tree that has no more than `pillar_length` everything does.
-ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length = 0);
+ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length = 0, Unit braced = 0);
 
 }  // namespace ribvault

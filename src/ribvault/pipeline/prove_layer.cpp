@@ -1,0 +1,74 @@
+#include "ribvault/pipeline/prove_layer.hpp"
+
+#include "ribvault/slice/nest_contours.hpp"
+#include "ribvault/verify/verify_layer.hpp"
+
+namespace ribvault {
+namespace {
+
+const ExactPolygons no_object;
+const Region no_cavity;
+
+LayerGeometry geometry(const LayerMaterial& layer) { return {layer.slice->exact.get(), &layer.cavity->region, *layer.tracks}; }
+
+/// The union of slices.
+ExactPolygons united(const std::vector<const Slice*>& slices) {
+    std::vector<ExactContour> contours;
+    const auto add = [&](const ExactPolygon& polygon) { contours.emplace_back(polygon.vertices_begin(), polygon.vertices_end()); };
+    for (const Slice* slice : slices)
+        for (const ExactPolygonWithHoles& polygon : slice->exact->polygons) {
+            add(polygon.outer_boundary());
+            for (const ExactPolygon& hole : polygon.holes()) add(hole);
+        }
+    return regularise(contours);
+}
+
+}  // namespace
+
+void add_verdict(const LayerVerdict& more, LayerVerdict& verdict) {
+    verdict.supported = verdict.supported && more.supported;
+    if (verdict.malformed.empty()) verdict.malformed = more.malformed;
+    if (!verdict.internal) verdict.internal = more.internal;
+    if (!verdict.external) verdict.external = more.external;
+    verdict.stages += more.stages;
+}
+
+void add_verdict(const PrintVerdict& more, PrintVerdict& verdict) {
+    if (verdict.supported && !more.supported) verdict.place = more.place;
+    verdict.supported = verdict.supported && more.supported;
+    for (const std::size_t k : {0, 1}) {
+        verdict.unsupported_mm[k] += more.unsupported_mm[k];
+        verdict.external_mm[k] += more.external_mm[k];
+    }
+    verdict.stages += more.stages;
+}
+
+LayerVerdict prove_layer(const LayerMaterial& layer, const LayerMaterial& below, const Settings& settings) {
+    const LayerGeometry upper = geometry(layer), lower = geometry(below);
+    LayerVerdict verdict = settings.support_gap_layers == 0 ? verify_layer(layer.layer, upper, lower, settings)
+                                                            : verify_layer(layer.layer, {&no_object, &no_cavity, *layer.tracks}, lower, settings);
+    if (settings.bed_only && !layer.external->empty())
+        add_verdict(verify_layer(layer.layer, {&no_object, &no_cavity, *layer.external}, {&no_object, &no_cavity, *below.external}, settings), verdict);
+    return verdict;
+}
+
+LayerVerdict prove_over_gap(const OverGap& over, const LayerMaterial& holding, const Settings& settings) {
+    // The cavity is that of the layer just below, or of the supports' own where there is no gap.
+    const LayerMaterial& next = over.gap.empty() ? holding : over.gap.front();
+    if (over.over_bed) {
+        Settings inside = settings;
+        inside.support = Support::internal;
+        LayerVerdict verdict =
+            verify_layer(over.upper.layer, {over.upper.slice->exact.get(), &over.upper.cavity->region, {}}, {next.slice->exact.get(), &next.cavity->region, *next.internal}, inside);
+        verdict.external.reset();
+        return verdict;
+    }
+    std::vector<const Slice*> slices{holding.slice.get()};
+    for (const LayerMaterial& layer : over.gap) slices.push_back(layer.slice.get());
+    const ExactPolygons object = united(slices);
+    std::vector<Segment> tracks = *next.internal;
+    tracks.insert(tracks.end(), holding.external->begin(), holding.external->end());
+    return verify_layer(over.upper.layer, {over.upper.slice->exact.get(), &over.upper.cavity->region, {}}, {&object, &next.cavity->region, tracks}, settings);
+}
+
+}  // namespace ribvault
