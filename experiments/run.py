@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs experiments and writes their tables. Usage: experiments/run.py [NAME ...] [options]; scripts/experiments builds first.
 
-Names: table2 table3 table4 table5 figure24 infill ablations exactness peers gaps thrifty solids table6; none: all. Results are kept under
+Names: table2 table3 table4 table5 figure24 infill ablations exactness peers gaps thrifty pillars solids table6; none: all. Results are kept under
 results/runs and are not made twice; tables (Markdown, CSV, LaTeX) and plots are written to results/tables.
 """
 import argparse

@@ -1,11 +1,14 @@
 """External supports of slicers and ribvault's own on the same placed file at the same limit, each with and without supports, judged by
-`ribvault verify`. Kinds: supports_own, supports_grid and supports_snug (PrusaSlicer), supports_tree (CuraEngine)."""
+`ribvault verify`, as they are and by the rules of the gaps that they leave. Kinds: supports_own, supports_grid and supports_snug (PrusaSlicer), supports_tree (CuraEngine)."""
 import os
 import re
 
 from lab import peers, runs
 
 SUPPORT_TYPES = ("Support material", "Support material interface", "SUPPORT", "SUPPORT-INTERFACE")
+# Distances that the slicers leave by default (measured in plane from 0.4 mm tracks), as rules of `ribvault verify`.
+GAPS = {"supports_grid": ("--support-gap", "0.25", "--support-gap-layers", "1"), "supports_snug": ("--support-gap", "0.25", "--support-gap-layers", "1"),
+        "supports_tree": ("--support-gap", "0.7", "--support-gap-layers", "1")}
 STYLES = {"supports_grid": "grid", "supports_snug": "snug"}
 
 
@@ -52,4 +55,5 @@ def run(run, folder):
         name = "supported" if supported else "plain"
         result[name] = {"support_mm3": sum(volume.get(t, 0) for t in SUPPORT_TYPES), "print_seconds": print_seconds(gcode), **cost}
     result["verify"] = peers.verify(gcode, placed, folder)
+    result["verify_gaps"] = peers.verify(gcode, placed, folder, GAPS.get(run.kind, run.settings))
     return result

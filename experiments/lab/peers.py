@@ -34,12 +34,12 @@ def can_verify():
     return done.returncode == 0 and "--report" in done.stdout
 
 
-def verify(gcode, model, folder):
+def verify(gcode, model, folder, rules=()):
     """What `ribvault verify` says, or why it does not."""
     if not can_verify():
         return {"missing": "this ribvault has no verify command"}
     report = folder / "verify.json"
-    code, text, cost = runs.measured([runs.program("ribvault"), "verify", gcode, "--report", report], folder)
+    code, text, cost = runs.measured([runs.program("ribvault"), "verify", gcode, *rules, "--report", report], folder)
     if not report.exists():
         return {"missing": text.strip() or f"exit code {code}"}
     return {"exit_code": code, **cost, "report": {k: v for k, v in json.loads(report.read_text()).items() if k != "layers"}}

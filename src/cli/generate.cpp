@@ -55,8 +55,7 @@ void add_geometry(CLI::App* command, Written& w) {
     add_length(outside, "--support-gap", s.support_gap, "keep external supports this far off the object, in plane (default 0)");
     outside->add_option("--support-gap-layers", s.support_gap_layers, "leave so many layers empty between them and what they hold up (default 0)");
     outside->add_flag("--bed-only", s.bed_only, "they stand on the bed, nowhere on the object");
-    outside->add_flag("--pillars", s.pillars, "trees on the object stand free where that takes less track down to the bed");
-    add_length(outside, "--pillar-length", s.pillar_length, "track on every layer of a support that stands free (default 4)");
+    add_length(outside, "--pillar-length", s.pillar_length, "track on every layer of a tree that stands free (default 4)");
     const auto supports = command->add_option_group("Supports (Sections 4.1 to 4.3)");
     const auto radius = supports->add_option_function<std::string>(
         "--support-radius", [&w](const std::string& t) { w.support_radius = parse_length(t, "--support-radius"); },
@@ -86,6 +85,7 @@ void add_geometry(CLI::App* command, Written& w) {
     supports->add_option("--wall-lines", s.wall_lines, "tracks side by side in long or tall walls (default 1)");
     add_length(supports, "--wall-lines-longer", s.wall_lines_longer, "what is long, from the root to the farthest tip (default 10)");
     add_length(supports, "--wall-lines-taller", s.wall_lines_taller, "what is tall (default 10)");
+    supports->add_flag("--pillars", s.pillars, "trees stand free where that takes less track down to the bed (Section 5.4)");
     add_length(supports, "--brace", s.brace, "trees that reach farther than this get a second root (default: none do)");
     add_length(supports, "--straighten-step", w.straighten_step, "how far a vertex moves per layer (default: rho)");
     supports->add_flag("--no-branch-bonus", w.no_branch_bonus, "leave out the heuristic of equation (4)");

@@ -53,7 +53,7 @@ struct Settings {
     int support_gap_layers = 0;   ///< so many layers between an external support and what it holds up are left empty
     bool bed_only = false;        ///< external supports stand on the bed, nowhere on the object (pipeline/ways_to_bed.hpp)
     Unit pillar_length = 400000;  ///< track that is left of a tree that stands free, on every layer down to what it stands on
-    bool pillars = false;  ///< external trees on the object stand free where that takes less track down to the bed (vault/free_trees.hpp)
+    bool pillars = false;  ///< trees stand free where that takes less track down to the bed, in cavities too (vault/free_trees.hpp)
     bool trim = false;  ///< new walls end as early as what they are there for allows (vault/trim_walls.hpp)
 
     Unit erosion_step = 20000;     ///< how much a free tip loses per layer (Section 4.1); at most ρ keeps equation (1)

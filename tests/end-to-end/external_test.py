@@ -106,7 +106,7 @@ class External(unittest.TestCase):
         self.assertEqual((self.folder / "1.gcode").read_bytes(), (self.folder / "2.gcode").read_bytes())
 
     def test_what_cannot_be_is_refused(self):
-        for arguments, fragment in ((["--support", "some"], "--support"), (["--support-gap", "0.2"], "--support external"), (["--bed-only"], "--support external"), (["--support-gap-layers", "1"], "--support external"), (["--pillars"], "--support external"),
+        for arguments, fragment in ((["--support", "some"], "--support"), (["--support-gap", "0.2"], "--support external"), (["--bed-only"], "--support external"), (["--support-gap-layers", "1"], "--support external"), (["--pillars", "--brace", "5"], "--brace"),
                                     (["--support", "both", "--support-gap", "9"], "--support-gap")):
             done = self.run_program("generate", CUBE, "-o", "a.gcode", *arguments)
             self.assertEqual(done.returncode, 2, done.stderr)

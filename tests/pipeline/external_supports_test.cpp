@@ -273,3 +273,36 @@ TEST_CASE("random blocks on supports from the bed, and through gaps of layers, a
     }
     CHECK(proved >= 10);
 }
+
+TEST_CASE("pillars in a cavity: a roof of low slope takes less, and is proved with both strategies") {
+    // Figure 25, left: the box's top leans by 8 degrees.
+    std::vector<Triangle> slab = box({0, 0, 0}, {24, 16, 8});
+    for (Triangle& t : slab)
+        for (Corner& corner : t)
+            if (corner[2] > 0 && corner[0] > 0) corner[2] = 11.375;
+    for (const bool thrifty : {false, true}) {
+        Settings settings;
+        if (thrifty) settings.propagation = Propagation::shrink, settings.order = Order::doubling, settings.trim = true;
+        const RunReport walls = run(slab, settings);
+        settings.pillars = true;
+        const RunReport pillars = run(slab, settings);
+        CHECK(pillars.verdict.proved);
+        CHECK(pillars.verdict.print_proved);
+        CHECK(pillars.totals.support_volume_mm3 < 0.9 * walls.totals.support_volume_mm3);
+        CHECK(pillars.totals.support_volume_mm3 > 0);
+    }
+}
+
+TEST_CASE("random blocks with pillars in their cavities and outside are proved") {
+    std::mt19937_64 random(2511);
+    for (int round = 0; round < 8; ++round) {
+        Settings settings = with(round % 2 == 0 ? Support::internal : Support::both);
+        settings.seed = random(), settings.pillars = true;
+        settings.top_layers = settings.bottom_layers = round % 3;
+        if (round % 4 > 1) settings.propagation = Propagation::shrink, settings.order = Order::doubling, settings.trim = true;
+        const RunReport report = run(random_blocks(random) + box({-9, -9, 0}, {9, 9, 3}), settings);
+        INFO("round " << round);
+        CHECK(report.verdict.proved);
+        CHECK(report.verdict.print_proved);
+    }
+}

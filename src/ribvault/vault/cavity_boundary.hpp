@@ -10,9 +10,9 @@ namespace ribvault {
 struct CavityBoundary {
     NearestSegment edges;    ///< which walls must not cross; the frame of an outside is not among them
     PointLocation location;
-    bool outside = false;    ///< trees may stand free (vault/free_trees.hpp)
+    bool free_trees = false; ///< trees may stand free (vault/free_trees.hpp)
     bool rooted = true;      ///< the edges are the shell's: walls may be rooted there
-    int layers_below = 0;    ///< layer numbers count from the bed
+    int layers_below = 0;    ///< down to the bed, on which a tree may stand
     /// Is there a shell on which a wall can be rooted?
     bool has_shell() const { return rooted && !edges.empty(); }
 };

@@ -108,7 +108,7 @@ SquaredDistance squared(double distance) {
 }  // namespace
 
 double GrowingSupports::longest_wall() const {
-    if (!boundary_.outside) return std::numeric_limits<double>::infinity();
+    if (!boundary_.free_trees) return std::numeric_limits<double>::infinity();
     // A wall of length L loses one step a layer: L² / (2 step) in all, less what the bed cuts off.
     const auto layers = static_cast<double>(boundary_.layers_below), step = static_cast<double>(std::max<Unit>(settings_.erosion_step, 1));
     const double pillar = static_cast<double>(settings_.pillar_length);
@@ -155,7 +155,7 @@ void GrowingSupports::add_pillar(Point p) {
 
 void GrowingSupports::add_wall(Point at, Unit bonus) {
     Point p = at;
-    if (boundary_.outside) {
+    if (boundary_.free_trees) {
         const std::optional<Point> inside = place_inside(at);
         if (!inside || covers(*inside, 0)) return;
         p = *inside;

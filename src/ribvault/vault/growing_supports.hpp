@@ -21,8 +21,8 @@ public:
     /// Adds the wall that Section 4.3 gives to p: to the nearest point of B_i ∪ S_i under equation (4) with this bonus.
     /// Precondition: p lies strictly inside the cavity. Postcondition: covers(p, 0) up to rounding.
     ///
-    /// Outside, where a wall would take more track down to the bed than a pillar does, p gets a pillar: a cross of
-    /// settings.pillar_length. There p may also lie between the object and the region that a removal gap leaves: the wall goes to
+    /// Where trees may stand free and a wall would take more track down to the bed than a pillar does, p gets a pillar: a cross of
+    /// settings.pillar_length. Outside p may also lie between the object and the region that a removal gap leaves: the wall goes to
     /// the point of the region nearest to it.
     void add_wall(Point p, Unit bonus);
 

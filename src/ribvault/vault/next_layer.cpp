@@ -1,5 +1,7 @@
 #include "ribvault/vault/next_layer.hpp"
 
+#include <algorithm>
+
 #include "ribvault/slice/lattice_clip.hpp"
 #include "ribvault/vault/brace_trees.hpp"
 #include "ribvault/vault/copy_supports.hpp"
@@ -20,7 +22,7 @@ SupportForest clip_again(const SupportForest& forest, const CavityBoundary& boun
     SupportForest clipped = copy_supports(forest, boundary, true).forest;
     for (auto [v, end] = vertices(forest); v != end; ++v)
         if (out_degree(*v, forest) == 0 && !forest[*v].free) add_vertex(forest[*v], clipped);
-    if (boundary.outside) root_trees(clipped);
+    if (boundary.free_trees) root_trees(clipped);
     return clipped;
 }
 
@@ -49,11 +51,14 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
     LayerSupports result;
     std::vector<char> continues(num_edges(above), 0);
     if (!cavity.region.empty() && (num_vertices(above) > 0 || !overhang.empty())) {
-        const CavityBoundary boundary = prepare_boundary(cavity);
+        CavityBoundary boundary = prepare_boundary(cavity);
+        boundary.free_trees = cavity.outside || settings.pillars;
+        // A cavity's floor is not known here; it is no lower than this.
+        if (!cavity.outside) boundary.layers_below = std::max(0, cavity.layer - settings.bottom_layers);
         const bool shell_holds_tracks = boundary.rooted && settings.support_radius >= settings.nozzle / 2;
         CopiedSupports copied = copy_supports(above, boundary, shell_holds_tracks);
-        if (cavity.outside) root_trees(copied.forest);
-        if (cavity.outside && settings.pillars) free_where_cheaper(copied.forest, cavity.layer, settings.erosion_step, settings.pillar_length);
+        if (boundary.free_trees) root_trees(copied.forest);
+        if (settings.pillars) free_where_cheaper(copied.forest, boundary.layers_below, settings.erosion_step, settings.pillar_length);
         for (auto [v, end] = vertices(copied.forest); v != end; ++v) ++copied.forest[*v].standing;
         SupportForest propagated;
         const auto note_continued = [&](const std::vector<char>& survives) {
@@ -75,7 +80,7 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
             result.blocked = straightened.blocked;
             propagated = straightened.left_cavity ? clip_again(straightened.forest, boundary) : std::move(straightened.forest);
         }
-        if (cavity.outside) centre_free_trees(propagated);
+        if (boundary.free_trees) centre_free_trees(propagated);
         result.unsupported = unsupported_pieces(copied, propagated, cavity, settings);
         result.unsupported.insert(result.unsupported.end(), overhang.begin(), overhang.end());
         if (cavity.walls) result.unsupported = within_reach(result.unsupported, *cavity.walls, settings);
