@@ -1,5 +1,6 @@
 // External supports from mesh to proof: nothing overhangs, islands in mid-air included; the gap; what the supports are for.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <random>
 
@@ -304,5 +305,19 @@ TEST_CASE("random blocks with pillars in their cavities and outside are proved")
         INFO("round " << round);
         CHECK(report.verdict.proved);
         CHECK(report.verdict.print_proved);
+    }
+}
+
+TEST_CASE("a leaning block that recedes by exactly rho needs no support, one that recedes by 20 pm more gets them, and is proved") {
+    for (const float shift : {10.0f, std::nextafter(10.0f, 11.0f)}) {
+        std::vector<Triangle> block = box({0, 0, 0}, {4, 3, 10});
+        for (Triangle& t : block)
+            for (Corner& corner : t)
+                if (corner[2] > 0) corner[0] += shift;
+        const RunReport report = run(block, with(Support::external));
+        INFO("shifted by " << shift);
+        CHECK(report.verdict.proved);
+        CHECK(report.verdict.print_proved);
+        CHECK((report.totals.external_support_volume_mm3 > 0) == (shift > 10));
     }
 }

@@ -129,7 +129,8 @@ void LayerFront::hang(Token& token) {
     overhangs_.measure([&] {
         token.overhang = overhang_over_cavity(*token.material.cavity, *token.above.slice, *token.above.cavity, settings_);
         if (settings_.outside())
-            token.overhang_outside = overhang_outside(*token.material.outside, *token.above.outside, *token.above.cavity, settings_);
+            token.overhang_outside = overhang_outside(*token.material.outside, *token.above.outside, *token.above.cavity, settings_,
+                                                      token.material.slice.get(), token.above.slice.get());
     });
 }
 

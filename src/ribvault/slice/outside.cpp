@@ -1,6 +1,7 @@
 #include "ribvault/slice/outside.hpp"
 
 #include "ribvault/slice/lattice_clip.hpp"
+#include "ribvault/slice/outline_reach.hpp"
 
 namespace ribvault {
 namespace {
@@ -29,10 +30,16 @@ Region off_the_object(const std::vector<std::shared_ptr<const Slice>>& slices, c
     return uncross(complement(kept_off, frame));
 }
 
-Region overhang_outside(const Cavity& outside, const Cavity& outside_above, const Cavity& cavity_above, const Settings& s) {
+Region overhang_outside(const Cavity& outside, const Cavity& outside_above, const Cavity& cavity_above, const Settings& s, const Slice* slice,
+                        const Slice* slice_above) {
     Region hanging = clip(ClipperLib::ctDifference, outside.deep, outside_above.inner);
     if (s.bottom_layers == 0 && !hanging.empty() && !cavity_above.inner.empty()) hanging = clip(ClipperLib::ctDifference, hanging, cavity_above.inner);
-    return without_ties(hanging, outside, outside_above, s);
+    if (!slice || !slice_above) return without_ties(hanging, outside, outside_above, s);
+    OutlineReach reach(*slice_above->exact, *slice->exact, s.support_radius);
+    return without_ties(hanging, outside, outside_above, s, [&](Box sliver) {
+        sliver.grow(static_cast<Unit>(4 * clip_rounding));  // what rounding may have taken away
+        return reach.holds_in(sliver);
+    });
 }
 
 }  // namespace ribvault

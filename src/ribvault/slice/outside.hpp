@@ -15,7 +15,9 @@ Cavity make_outside(const Slice& slice, const Box& frame, const Settings& settin
 Region off_the_object(const std::vector<std::shared_ptr<const Slice>>& slices, const Box& frame, const Settings& settings);
 
 /// Where the shell of layer i + 1 hangs over `outside`, what lies outside O_i, farther than ρ from B_i: what overhang_over_cavity
-/// is for cavities. `outside_above` lies outside O_{i+1}; `cavity_above` is C_{i+1}.
-Region overhang_outside(const Cavity& outside, const Cavity& outside_above, const Cavity& cavity_above, const Settings& settings);
+/// is for cavities. `outside_above` lies outside O_{i+1}; `cavity_above` is C_{i+1}. The slices are rounded there; what seems to recede by exactly ρ
+/// is held against the exact ones where they are given (nullptr: it is believed).
+Region overhang_outside(const Cavity& outside, const Cavity& outside_above, const Cavity& cavity_above, const Settings& settings,
+                        const Slice* slice = nullptr, const Slice* slice_above = nullptr);
 
 }  // namespace ribvault
