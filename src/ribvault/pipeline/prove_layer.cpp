@@ -53,22 +53,19 @@ LayerVerdict prove_layer(const LayerMaterial& layer, const LayerMaterial& below,
 }
 
 LayerVerdict prove_over_gap(const OverGap& over, const LayerMaterial& holding, const Settings& settings) {
-    // The cavity is that of the layer just below, or of the supports' own where there is no gap.
+    const LayerGeometry shell{over.upper.slice->exact.get(), &over.upper.cavity->region, {}};
+    // Over the cavity of the layer just below, which is the supports' own where there is no gap.
     const LayerMaterial& next = over.gap.empty() ? holding : over.gap.front();
-    if (over.over_bed) {
-        Settings inside = settings;
-        inside.support = Support::internal;
-        LayerVerdict verdict =
-            verify_layer(over.upper.layer, {over.upper.slice->exact.get(), &over.upper.cavity->region, {}}, {next.slice->exact.get(), &next.cavity->region, *next.internal}, inside);
-        verdict.external.reset();
-        return verdict;
-    }
+    Settings inside = settings;
+    inside.support = Support::internal;
+    LayerVerdict verdict = verify_layer(over.upper.layer, shell, {next.slice->exact.get(), &next.cavity->region, *next.internal}, inside);
+    verdict.external.reset();
+    if (over.over_bed) return verdict;
     std::vector<const Slice*> slices{holding.slice.get()};
     for (const LayerMaterial& layer : over.gap) slices.push_back(layer.slice.get());
     const ExactPolygons object = united(slices);
-    std::vector<Segment> tracks = *next.internal;
-    tracks.insert(tracks.end(), holding.external->begin(), holding.external->end());
-    return verify_layer(over.upper.layer, {over.upper.slice->exact.get(), &over.upper.cavity->region, {}}, {&object, &next.cavity->region, tracks}, settings);
+    add_verdict(verify_layer(over.upper.layer, shell, {&object, &no_cavity, *holding.external}, settings), verdict);
+    return verdict;
 }
 
 }  // namespace ribvault

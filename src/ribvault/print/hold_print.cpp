@@ -179,7 +179,7 @@ private:
     }
     void lay_all_patches() {
         held_.plan = without_patches_;
-        held_.patch_length = lay_patches(patches_, *tracks_, held_.plan, settings_.nozzle);
+        held_.patch_length = lay_patches(patches_, *tracks_, held_.plan, settings_.nozzle, [&](const Segment& way) { return may_stand_outside(way); });
         held_.printed = std::make_shared<const PrintedLayer>(printed_layer(held_.plan));
     }
 

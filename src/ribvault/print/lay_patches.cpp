@@ -24,7 +24,8 @@ NearestSegment segments_of(const LayerPlan& plan, std::vector<PlanTracks::Place>
 
 class PatchLayer {
 public:
-    PatchLayer(const PlanTracks& on, LayerPlan& plan, Unit width) : on_(on), plan_(plan), width_(width), dot_(std::numbers::pi / 4 * static_cast<double>(width)) {}
+    PatchLayer(const PlanTracks& on, LayerPlan& plan, Unit width, const std::function<bool(const Segment&)>& open)
+        : on_(on), plan_(plan), width_(width), open_(open), dot_(std::numbers::pi / 4 * static_cast<double>(width)) {}
 
     Unit run(const std::vector<Patch>& patches) {
         for (const Patch& patch : patches)
@@ -55,7 +56,7 @@ private:
             const Point from = nearest_point(dot, near->segment);
             if (dot == from) return true;
             dot = beyond_tiny(from, dot);
-            if (length(dot - from) > dot_) return false;
+            if (length(dot - from) > dot_ || !is_open(patch.kind, {from, dot})) return false;
             lay(patch.kind, {from, dot}, true);
             return true;
         }
@@ -70,7 +71,7 @@ private:
         if (dot == from) return path.width >= width_;
         dot = beyond_tiny(from, dot);
         const double way = length(dot - from);
-        if (way > dot_) return false;
+        if (way > dot_ || !is_open(patch.kind, {from, dot})) return false;
         if (!path.closed) {
             const bool last = p + 1 == track.paths.size() && k + 2 >= path.points.size() && from == step.b;
             const bool first = p == 0 && k == 0 && from == step.a && track.entry == Entry::either_end;
@@ -91,6 +92,8 @@ private:
         }
         return true;
     }
+
+    bool is_open(TrackKind kind, const Segment& way) const { return !open_ || kind != TrackKind::external_support || open_(way); }
 
     /// `to`, or on the way there what is just far enough for a step.
     static Point beyond_tiny(Point from, Point to) {
@@ -158,6 +161,7 @@ private:
     const PlanTracks& on_;
     LayerPlan& plan_;
     const Unit width_;
+    const std::function<bool(const Segment&)>& open_;
     const double dot_;  ///< length of track that takes as much material as a dot
     double added_ = 0;
     std::set<std::pair<std::size_t, bool>> prolonged_;  ///< the track; at its end, or its beginning
@@ -170,8 +174,8 @@ private:
 
 PlanTracks::PlanTracks(const LayerPlan& plan) : segments_(segments_of(plan, places_)) {}
 
-Unit lay_patches(const std::vector<Patch>& patches, const PlanTracks& on, LayerPlan& plan, Unit width) {
-    return PatchLayer(on, plan, width).run(patches);
+Unit lay_patches(const std::vector<Patch>& patches, const PlanTracks& on, LayerPlan& plan, Unit width, const std::function<bool(const Segment&)>& open) {
+    return PatchLayer(on, plan, width, open).run(patches);
 }
 
 }  // namespace ribvault

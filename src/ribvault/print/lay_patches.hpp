@@ -1,6 +1,7 @@
 // Short tracks under what would hang, printed with the tracks that they touch rather than on their own.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "ribvault/exact/nearest_segment.hpp"
@@ -39,8 +40,9 @@ private:
 /// * beside a support, which goes to the dot and back on its way (a spur);
 /// * beside another track or a patch laid before, which is nearer: a track of its own from there to the dot (ToolPath::on_track, unless it
 ///   leaves a narrower strip, where its rounded end needs filament too).
-/// Where the way is longer than a dot is worth, it stays a dot. Returns the length of track that the patches add, dots as none.
+/// Where the way is longer than a dot is worth, or one of external supports leads where `open` says they must not, it stays a dot. Returns the length of track that the patches add, dots as none.
 /// Steps are at least shortest_step long.
-Unit lay_patches(const std::vector<Patch>& patches, const PlanTracks& on, LayerPlan& plan, Unit width);
+Unit lay_patches(const std::vector<Patch>& patches, const PlanTracks& on, LayerPlan& plan, Unit width,
+                 const std::function<bool(const Segment&)>& open = nullptr);
 
 }  // namespace ribvault
