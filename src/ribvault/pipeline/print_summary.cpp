@@ -71,6 +71,9 @@ void describe_verdict(std::string& text, const PrintReport& r) {
     if (r.supported) {
         print(text, "supported  equation (2) holds on all %d layers, decided exactly%s\n", r.layer_count,
               r.area_mm2.hi > 0 ? ", but for regions that --min-area lets pass" : r.bridged_mm.hi > 0 ? ", but for the bridges" : "");
+        if (r.support_gap_mm > 0 || r.support_gap_layers > 0)
+            print(text, "           across gaps: within %.5g mm and half a nozzle of the object, and with %d layers left empty under it\n", r.support_gap_mm, r.support_gap_layers);
+        if (r.bed_only) print(text, "           with supports that lie on supports alone, down to the bed (--bed-only)\n");
         if (r.inside) print(text, "           inside the outline of the layer below; what hangs outside it was not judged (--inside)\n");
     } else {
         print(text, "NOT SUPPORTED  on %d of %d layers, %s mm2 in all have no material within rho below:\n", r.layers_unsupported, r.layer_count,

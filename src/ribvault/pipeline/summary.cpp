@@ -25,6 +25,10 @@ void describe_verdict(std::string& text, const RunReport& r) {
     if (r.verdict.proved && gap)
         print(text, "          across the removal gap: outside, all is within rho of a support or within %.5g mm (g + r) of the object\n",
               to_mm(r.settings.reach_of_object()));
+    if (r.verdict.proved && r.settings.support_gap_layers > 0)
+        print(text, "          through the layers left empty: outside, the object lies on a support, on itself or on the bed at most %d layers farther down\n",
+              r.settings.support_gap_layers);
+    if (r.verdict.proved && r.settings.bed_only) print(text, "          on the bed alone: external supports stand on each other, nowhere on the object\n");
     if (gap && !r.verdict.external_overhangs.empty())
         print(text, "warning   on %zu layers there are crevices where the gap leaves no room for a support within rho; see \"external_overhangs\"\n",
               r.verdict.external_overhangs.size());

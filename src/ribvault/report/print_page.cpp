@@ -91,7 +91,9 @@ Json facts(const GcodePrint& print, const PrintReport& r) {
     const std::string name = r.input_path.substr(r.input_path.find_last_of("/\\") + 1);
     const std::string verdict = r.supported ? "Supported on all " + std::to_string(r.layer_count) + " layers."
                                             : "Hangs on " + std::to_string(r.layers_unsupported) + " of " + std::to_string(r.layer_count) + " layers.";
-    const std::string rule = (r.flavour == "unknown" ? "" : r.flavour + ", ") + "ρ = " + fixed(r.support_radius_mm, 3) + " mm (" + r.support_radius_source + ")" + (r.inside ? ", inside the outline of the layer below" : "") + "; ";
+    const std::string rule = (r.flavour == "unknown" ? "" : r.flavour + ", ") + "ρ = " + fixed(r.support_radius_mm, 3) + " mm (" + r.support_radius_source + ")" + (r.inside ? ", inside the outline of the layer below" : "") +
+                             (r.support_gap_mm > 0 ? ", removal gap " + fixed(r.support_gap_mm, 3) + " mm" : "") +
+                             (r.support_gap_layers > 0 ? ", " + std::to_string(r.support_gap_layers) + " layers left empty over supports" : "") + (r.bed_only ? ", supports on the bed alone" : "") + "; ";
     const bool all = r.unsupported_mm.hi == 0 && r.area_mm2.hi == 0;
     const std::string found = all ? "all " + fixed(r.length_mm, 0) + " mm of tracks have material within ρ below."
                                   : fixed(r.unsupported_mm.hi, 1) + " of " + fixed(r.length_mm, 0) + " mm and " + fixed(r.area_mm2.lo, 2) + " to " +
