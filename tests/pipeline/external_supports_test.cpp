@@ -321,3 +321,12 @@ TEST_CASE("a leaning block that recedes by exactly rho needs no support, one tha
         CHECK((report.totals.external_support_volume_mm3 > 0) == (shift > 10));
     }
 }
+
+TEST_CASE("through a gap of layers an empty cavity holds up nothing") {
+    // A box without covers at its top, open there, a neck one layer high, and a floor that hangs over the opening.
+    Settings settings = with(Support::both);
+    settings.top_layers = 0, settings.support_gap_layers = 1, settings.gaps = Gaps::paper;
+    const RunReport report = run(box({0, 0, 0}, {20, 20, 2}) + box({8, 8, 2}, {12, 12, 2.2}) + box({0, 0, 2.2}, {20, 20, 3.2}), settings);
+    CHECK_FALSE(report.verdict.proved);
+    CHECK(report.verdict.layers_refuted == std::vector<int>{11});
+}

@@ -160,8 +160,7 @@ private:
         r.verdict.supported = true;  // layer 0 lies on the bed
         if (below) r.verdict = prove_layer(layer, *below, s);
         if (s.stands_off()) check_gap(*layer.slice, swept.held.plan, r.verdict);
-        if (!swept.over_gap.empty())
-            for (const LayerMaterial& above : swept.over_gap.front().gap) check_gap(*above.slice, swept.held.plan, r.verdict);
+        for (const auto& above : layer.slices_above) check_gap(*above, swept.held.plan, r.verdict);
         PrintVerdict print_over_gap;
         for (const PrintPart& part : swept.held.parts) add_verdict(part.judgement.verdict(), part.over_gap ? print_over_gap : output->print_above);
         for (const OverGap& over : swept.over_gap) output->over_gap.push_back({over.upper.layer, prove_over_gap(over, layer, s), over.over_bed ? PrintVerdict() : print_over_gap});

@@ -89,12 +89,12 @@ void LayerFront::gather(Token& token) {
     token.layer = layer;
     while (window_top_ > layer + std::max(up, settings_.support_gap_layers)) window_.pop_front(), --window_top_;
     const auto at = [&](int j) -> const Eroded& { return window_[static_cast<std::size_t>(window_top_ - j)]; };
-    for (int j = layer + 1; j <= std::min(layer + settings_.support_gap_layers, layers_ - 1); ++j) token.slices_above.push_back(at(j).slice);
     bool complete = layer + up < layers_ && layer - down >= 0;  // missing layers count as empty
     for (int j = layer + up; complete && j >= layer - down; --j)
         token.eroded.push_back(at(j).region);
     Eroded& own = window_[static_cast<std::size_t>(window_top_ - layer)];
     token.material = {.layer = layer, .slice = own.slice, .closings = std::move(own.closings)};
+    for (int j = layer + 1; j <= std::min(layer + settings_.support_gap_layers, layers_ - 1); ++j) token.material.slices_above.push_back(at(j).slice);
 }
 
 void LayerFront::hollow(Token& token) {
@@ -106,7 +106,7 @@ void LayerFront::hollow(Token& token) {
             for (std::size_t k = 1; k < token.eroded.size(); ++k) region = intersect(region, *token.eroded[k]);
         }
         token.material.cavity = std::make_shared<const Cavity>(make_cavity(token.layer, std::move(region), settings_));
-        if (settings_.outside()) token.material.outside = std::make_shared<const Cavity>(room_->of(token.material.slice, token.slices_above));
+        if (settings_.outside()) token.material.outside = std::make_shared<const Cavity>(room_->of(token.material.slice, token.material.slices_above));
     });
 }
 

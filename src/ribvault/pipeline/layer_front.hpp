@@ -47,7 +47,6 @@ struct Token {
     int slice_index = 0;
     Eroded own;
     int layer = -1;  ///< the layer whose cavity this token computes; -1: none yet, or none any more
-    std::vector<std::shared_ptr<const Slice>> slices_above;  ///< of the layers of settings.support_gap_layers, as far as there are any
     std::vector<std::shared_ptr<const Region>> eroded;  ///< slices layer - k .. layer + k; empty where one is missing
     LayerMaterial material, above;
     Region overhang, overhang_outside;

@@ -11,15 +11,26 @@ const Region no_cavity;
 
 LayerGeometry geometry(const LayerMaterial& layer) { return {layer.slice->exact.get(), &layer.cavity->region, *layer.tracks}; }
 
-/// The union of slices.
-ExactPolygons united(const std::vector<const Slice*>& slices) {
+/// What lies under a gap: the slice of the layer just below what hangs, whole, for what hangs over its cavity is another matter; of all others the shells alone.
+ExactPolygons under_gap(const LayerMaterial& next, const std::vector<const LayerMaterial*>& others) {
     std::vector<ExactContour> contours;
     const auto add = [&](const ExactPolygon& polygon) { contours.emplace_back(polygon.vertices_begin(), polygon.vertices_end()); };
-    for (const Slice* slice : slices)
-        for (const ExactPolygonWithHoles& polygon : slice->exact->polygons) {
+    const auto add_slice = [&](const Slice& slice) {
+        for (const ExactPolygonWithHoles& polygon : slice.exact->polygons) {
             add(polygon.outer_boundary());
             for (const ExactPolygon& hole : polygon.holes()) add(hole);
         }
+    };
+    const auto exact_mm = [](Unit u) { return ExactKernel::FT(static_cast<double>(u)) / ExactKernel::FT(static_cast<double>(units_per_mm)); };
+    add_slice(*next.slice);
+    for (const LayerMaterial* layer : others) {
+        add_slice(*layer->slice);
+        // The other way round: one less inside, where the slice has one.
+        for (const Contour& contour : layer->cavity->region) {
+            contours.emplace_back();
+            for (auto p = contour.rbegin(); p != contour.rend(); ++p) contours.back().push_back({exact_mm(p->x), exact_mm(p->y)});
+        }
+    }
     return regularise(contours);
 }
 
@@ -61,9 +72,9 @@ LayerVerdict prove_over_gap(const OverGap& over, const LayerMaterial& holding, c
     LayerVerdict verdict = verify_layer(over.upper.layer, shell, {next.slice->exact.get(), &next.cavity->region, *next.internal}, inside);
     verdict.external.reset();
     if (over.over_bed) return verdict;
-    std::vector<const Slice*> slices{holding.slice.get()};
-    for (const LayerMaterial& layer : over.gap) slices.push_back(layer.slice.get());
-    const ExactPolygons object = united(slices);
+    std::vector<const LayerMaterial*> others{&holding};
+    for (std::size_t k = 1; k < over.gap.size(); ++k) others.push_back(&over.gap[k]);
+    const ExactPolygons object = under_gap(next, others);
     add_verdict(verify_layer(over.upper.layer, shell, {&object, &no_cavity, *holding.external}, settings), verdict);
     return verdict;
 }

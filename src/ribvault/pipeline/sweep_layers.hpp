@@ -25,6 +25,7 @@ struct LayerMaterial {
     std::shared_ptr<const Cavity> outside;            ///< where external supports may stand; nullptr: nowhere
     std::shared_ptr<const std::vector<Segment>> tracks;  ///< S_i as segments; dots as segments of no length
     std::shared_ptr<const std::vector<Segment>> internal, external;  ///< of these, those in cavities and those outside
+    std::vector<std::shared_ptr<const Slice>> slices_above;  ///< of the next settings.support_gap_layers layers, as far as there are any
     std::vector<GapClosing> closings;
     std::shared_ptr<LayerPlan> shell;  ///< perimeters and covers; taken by hold_print
 };

@@ -150,6 +150,8 @@ private:
         if (job_.support_gap_layers < 0 || job_.support_gap_layers > 100) refuse("--support-gap-layers must lie between 0 and 100");
         report_.support_gap_layers = job_.support_gap_layers;
         report_.bed_only = job_.bed_only;
+        if (job_.bed_only && job_.longest_bridge) refuse("--bed-only and --allow-bridges: bridges are judged over the object too; give one of them");
+        if (job_.bed_only && job_.inside) refuse("--bed-only is about what --inside leaves out; give one of them");
         const auto has_outline = [&](const GcodeLayer& layer) {
             const std::vector<char> outline = outline_tracks(print_, layer);
             return std::find(outline.begin(), outline.end(), 1) != outline.end();

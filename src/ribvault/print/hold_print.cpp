@@ -308,7 +308,17 @@ private:
             const Point d = hanging.b - hanging.a, p = hanging.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))};
             at.push_back(air.locate(p) == Side::inside ? nearest_point(p, near.segments()[near.nearest(p).index]) : p);
             if (length(at.back() - p) > static_cast<double>(reach)) return patches_.resize(before), false;
-            if (k > 0) patches_.push_back({{at[k - 1], at[k]}, TrackKind::support});
+            if (k == 0) continue;
+            // Feet on two sides of a notch: the way between them would lie in the air.
+            const Point middle{(at[k - 1].x + at[k].x) / 2, (at[k - 1].y + at[k].y) / 2};
+            const bool apart = air.locate(middle) == Side::inside &&
+                               compare_distance(middle, near.segments()[near.nearest(middle).index], settings_.nozzle / 4) > 0;
+            if (apart) {
+                patches_.push_back({{at[k - 1], at[k - 1]}, TrackKind::support});
+                patches_.push_back({{at[k], at[k]}, TrackKind::support});
+            } else {
+                patches_.push_back({{at[k - 1], at[k]}, TrackKind::support});
+            }
         }
         held_.patches += static_cast<int>(pieces);
         return true;
