@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "mesh/solids.hpp"
 #include "report/scratch_folder.hpp"
 #include "ribvault/error.hpp"
 #include "ribvault/pipeline/generate.hpp"
@@ -276,4 +277,18 @@ TEST_CASE("nothing is written when the file cannot be read or the run is interru
     job.stop = [] { return true; };
     CHECK_THROWS_AS(verify_print(job), Error);
     CHECK(folder.names().empty());
+}
+
+TEST_CASE("a box that floats over another hangs, however the layers between are left out") {
+    const ScratchFolder folder;
+    Job job;
+    job.model = folder / "floating.stl";
+    std::ofstream(job.model, std::ios::binary) << binary_stl(box({0, 0, 0}, {10, 10, 1}) + box({0, 0, 3}, {10, 10, 4}));
+    job.gcode = folder / "floating.gcode";
+    generate(job);
+    VerifyJob verify;
+    verify.gcode = *job.gcode;
+    const PrintReport report = verify_print(verify);
+    CHECK_FALSE(report.supported);
+    CHECK(report.layers_unsupported == 1);
 }

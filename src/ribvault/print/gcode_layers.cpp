@@ -230,6 +230,7 @@ void find_layers_below(std::vector<GcodeLayer>& layers) {
                 continue;
             }
             const std::int64_t nearest = top(j);
+            if (nearest < bottom(k) - layer.height) continue;  // a whole layer of air: nothing is below
             for (; top(j) == nearest; --j) {
                 layer.below.push_back(j);
                 if (j == 0) break;
