@@ -24,16 +24,15 @@ def centimetres(mm3):
 
 
 def build(lab):
-    titles = TITLES
     material = Table("table6", "External supports: filament and time that they add",
-                     [("model", ""), *((f"{t}: cm", ".0f") for t in titles), ("ribvault of grid %", ".0f"), *((f"{t}: min", ".0f") for t in titles[:-1])],
+                     [("model", ""), *((f"{t}: cm", ".0f") for t in TITLES), ("ribvault of grid %", ".0f"), *((f"{t}: min", ".0f") for t in TITLES[:-1])],
                      note="One perimeter, one cover, 0.2 mm layers, supports under slopes flatter than 45 degrees. Minutes: with supports less without, each program's own "
                           "estimate; CuraEngine alone makes none.")
     judged = Table("table6_judged", "The same prints judged: unsupported mm² at most, of the whole print, inside and outside",
-                   [("model", ""), *((t, ".1f") for t in titles), ("ribvault: supported", "")],
+                   [("model", ""), *((t, ".1f") for t in TITLES), ("ribvault: supported", "")],
                    note="As they are: in a gap there is air.")
     by_gaps = Table("table6_gaps", "The same prints judged by the rules of the gaps that each leaves: unsupported mm² at most",
-                    [("model", ""), *((t, ".1f") for t in titles), ("ribvault's: supported", "")],
+                    [("model", ""), *((t, ".1f") for t in TITLES), ("ribvault's: supported", "")],
                     note="`ribvault verify` with the options of each print; PrusaSlicer's with --support-gap 0.25, CuraEngine's with 0.7, both with --support-gap-layers 1, their defaults.")
     rows = [(f"{row['model']} (the paper: {row['ours_cm']} cm, {row['ours_min']} min)", model) for row, model, real in lab.paper_models("table6_external") if model and real]
     rows += [(lab.registry[name].title, lab.registry[name]) for name in ("nail_solid", "bridge_solid")]
@@ -44,7 +43,7 @@ def build(lab):
         minutes = [added(lab.value(run, "supported.print_seconds"), lab.value(run, "plain.print_seconds")) for run in runs[:-1]]
         areas = [(lab.value(run, "verify.report.totals.area_mm2") or (None, None))[1] for run in runs]
         grid = support[GRID]
-        material.add(title, *(centimetres(v) for v in support), 100 * support[0] / grid if grid and support[0] is not None else None, *minutes)
+        material.add(title, *(centimetres(v) for v in support), 100 * support[OWN] / grid if grid and support[OWN] is not None else None, *minutes)
         gap_areas = [(lab.value(run, "verify_gaps.report.totals.area_mm2") or (None, None))[1] for run in runs]
         own = [lab.value(run, "verify_gaps.report.verdict.supported") for run in runs[:GRID]]
         by_gaps.add(title, *gap_areas, None if None in own else all(own))

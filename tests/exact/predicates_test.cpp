@@ -97,7 +97,25 @@ TEST_CASE("ties of a distance with a radius: 3-4-5 and its like") {
     check_tie({-20000, 7}, {{0, -100}, {0, 100}}, 20000);
     check_tie({600000000, 800000000}, {{-800000000, 600000000}, {800000000, -600000000}}, 1000000000);
     check_tie({1, 1}, {{0, 0}, {2, 2}}, 0);
-    CHECK(compare_distance({0, 0}, {{far, far}, {far, far}}, far) == 1);
+    CHECK(compare_distance(Point{0, 0}, {{far, far}, {far, far}}, far) == 1);
+}
+
+TEST_CASE("the distance of two segments: the nearest of their ends, or nothing where they cross") {
+    const Segment way{{0, 0}, {60000, 80000}};
+    const auto check = [&](const Segment& s, Unit radius) {
+        for (const auto& [a, b] : {std::pair(way, s), std::pair(s, way), std::pair(Segment{way.b, way.a}, s)}) {
+            CHECK(compare_distance(a, b, radius) == 0);
+            CHECK(compare_distance(a, b, radius - 1) == 1);
+            CHECK(compare_distance(a, b, radius + 1) == -1);
+        }
+    };
+    check({{24000, -18000}, {124000, -18000}}, 30000);  // 30000 beside the way's beginning
+    check({{54000, 22000}, {104000, 72000}}, 30000);    // an end beside the inner part: 30000 (0.8, -0.6) from (30000, 40000)
+    check({{84000, 62000}, {24000, -18000}}, 30000);    // parallel
+    check({{60000, 90000}, {0, 95000}}, 10000);         // beside the end
+    CHECK(compare_distance(Segment{{0, 80000}, {60000, 0}}, way, 1) == -1);
+    CHECK(compare_distance(Segment{{0, 80000}, {60000, 0}}, way, 0) == 0);
+    CHECK(compare_distance(Segment{{30000, 40000}, {90000, 0}}, way, 1) == -1);
 }
 
 TEST_CASE("comparing two distances agrees with rationals") {

@@ -251,6 +251,7 @@ TEST_CASE("of the ways to grow supports the run uses the one that takes the leas
         CHECK(done <= total);
     };
     const RunReport chosen = generate(open);
+    open.choosing = [](int, int) {};
     CHECK(steps == static_cast<int>(chosen.layers.size()));
     REQUIRE(chosen.candidates.size() == 6);
     std::set<double> lengths;
@@ -264,4 +265,26 @@ TEST_CASE("of the ways to grow supports the run uses the one that takes the leas
     CHECK(chosen.settings.narrow_bonus == chosen.candidates.front().narrow_bonus);
     CHECK(chosen.totals.support_length_mm == Approx(chosen.candidates.front().length_mm));
     CHECK(chosen.verdict.proved);
+    // What the sweep before the run has made is printed as the run alone would have made it: branches that end, what hung, chains that could not move.
+    const auto page = [&](Job one) {
+        one.gcode = folder.path / "print.gcode", one.layers = folder.path / "layers.jsonl";
+        generate(one);
+        const auto text = [](const std::filesystem::path& file) {
+            std::ifstream in(file);
+            std::string line, all;
+            for (bool body = file.extension() == ".gcode" ? false : true; std::getline(in, line);) {
+                body = body || line.starts_with(";LAYER:");
+                if (body && line.find("\"settings\"") == std::string::npos && !line.starts_with("; ")) all += line + '\n';
+            }
+            return all;
+        };
+        return text(*one.gcode) + text(*one.layers);
+    };
+    Job alone = job;
+    alone.settings.narrow_bonus = chosen.settings.narrow_bonus, alone.settings.seed = chosen.settings.seed;
+    const std::string printed = page(alone);
+    CHECK(printed.size() > 100000);
+    CHECK((page(open) == printed));
+    open.settings.length_bound = true, alone.settings.length_bound = true;
+    CHECK((page(open) == page(alone)));
 }

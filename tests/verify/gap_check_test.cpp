@@ -43,3 +43,14 @@ TEST_CASE("in a hole is outside, in the solid is not, across is not") {
     CHECK(find_too_near(solid, {{{0, 0}, {10, 0}}}, 40000));  // farther than the gap from the edges, and inside
     CHECK_FALSE(find_too_near(solid, {}, 40000));
 }
+
+TEST_CASE("tracks of the object and of supports keep their distance, ties are far enough") {
+    const NearestSegment object({{{0, 0}, {60000, 80000}}, {{500000, 0}, {500000, 0}}});
+    const Segment far{{48000, -36000}, {900000, -36000}};  // 60000 from the first, square to its end, and 36000 from the dot
+    CHECK_FALSE(find_too_near(object, {far}, 36000));
+    CHECK(find_too_near(object, {far}, 36001));
+    CHECK_FALSE(find_too_near(object, {{far.a, far.a}, {{900000, 0}, {900000, 0}}}, 60000));
+    CHECK(find_too_near(object, {{{900000, 0}, {900000, 0}}, {far.a, far.a}}, 60001)->a == far.a);
+    CHECK(find_too_near(object, {{{0, 50000}, {50000, 0}}}, 1));
+    CHECK_FALSE(find_too_near(NearestSegment(std::vector<Segment>()), {far}, 36001));
+}

@@ -32,6 +32,13 @@ TEST_CASE("a track is cut exactly where it crosses the outline") {
     REQUIRE(outside.size() == 1);
     CHECK(outside[0].a == PrintedPoint{3, Rational(5, 3)});
     CHECK(outside[0].b == PrintedPoint{4, 2});
+    PrintedLayer wide = above({piece({1, 1}, {4, 2})});
+    wide.tracks[0].width = 7 * lower.tracks[0].width;
+    CHECK(stretches_outside(wide, lower)[0].width == lower.tracks[0].width);
+    const auto extruded = extruded_outside(wide, lower);
+    REQUIRE(extruded.size() == 1);
+    CHECK(extruded[0].a == outside[0].a);
+    CHECK(extruded[0].width == wide.tracks[0].width);
     CHECK(stretches_outside(above({piece({1, 1}, {2, 2})}), lower).empty());
     CHECK(stretches_outside(above({piece({5, 5}, {6, 6})}), lower).size() == 1);
     CHECK(stretches_outside(above({piece({-1, 1}, {4, 1})}), lower).size() == 2);

@@ -58,6 +58,11 @@ int compare_distance(Point p, const Segment& s, Unit radius) {
     return (d.numerator > bound) - (d.numerator < bound);
 }
 
+int compare_distance(const Segment& s, const Segment& t, Unit radius) {
+    if (segments_touch(s, t)) return radius > 0 ? -1 : 0;
+    return std::min({compare_distance(s.a, t, radius), compare_distance(s.b, t, radius), compare_distance(t.a, s, radius), compare_distance(t.b, s, radius)});
+}
+
 int compare(const SquaredDistance& a, const SquaredDistance& b) {
     if (a.denominator == b.denominator) return (a.numerator > b.numerator) - (a.numerator < b.numerator);
     // Each conversion and product rounds once with relative error 2^-64; the two sides together by less than 2^-61.

@@ -11,21 +11,27 @@
 namespace ribvault {
 namespace {
 
+constexpr std::size_t most_kept = 8;  ///< sweeps on disk at a time: about as much as their layers' G-code each
+
 struct Sweep {
     Settings settings;
-    SupportForest forest;
+    LayerSupports supports;
     double length = 0;  ///< lattice units
 };
 
-void step(Sweep& sweep, const Token& token) {
-    sweep.forest = next_supports(sweep.forest, token, sweep.settings).forest;
-    for (auto [e, end] = edges(sweep.forest); e != end; ++e)
-        sweep.length += length(sweep.forest[source(*e, sweep.forest)].at - sweep.forest[target(*e, sweep.forest)].at);
+/// The next layer of a sweep. Returns the one before it, which is complete now, if it is to be kept.
+std::string step(Sweep& sweep, const Token& token, bool keep) {
+    LayerSupports next = next_supports(sweep.supports.forest, token, sweep.settings);
+    std::string done = keep ? packed_supports(sweep.supports) : std::string();
+    sweep.supports = std::move(next);
+    const SupportForest& forest = sweep.supports.forest;
+    for (auto [e, end] = edges(forest); e != end; ++e) sweep.length += length(forest[source(*e, forest)].at - forest[target(*e, forest)].at);
+    return done;
 }
 
 }  // namespace
 
-std::vector<Candidate> sweep_candidates(const Slicer& slicer, const Settings& settings, int threads, const std::function<bool()>& stop, const OutsideRoom* room,
+Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int threads, const std::function<bool()>& stop, const OutsideRoom* room,
                                         const std::function<void(int, int)>& progress) {
     namespace tbb = oneapi::tbb;
     std::vector<Sweep> sweeps;
@@ -41,10 +47,15 @@ std::vector<Candidate> sweep_candidates(const Slicer& slicer, const Settings& se
     const std::size_t limit = thread_limit(threads);
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
     LayerFront front(slicer, settings, nullptr, stop, room);
+    Chosen chosen;
+    const bool keep = sweeps.size() <= most_kept;
+    if (keep) chosen.supports.emplace(sweeps.size());
+    std::vector<std::string> finished(sweeps.size());
     int done = 0;
     const auto sweep = [&](TokenPtr token) {
         if (token->layer >= 0) {
-            tbb::parallel_for(std::size_t{0}, sweeps.size(), [&](std::size_t k) { step(sweeps[k], *token); });
+            tbb::parallel_for(std::size_t{0}, sweeps.size(), [&](std::size_t k) { finished[k] = step(sweeps[k], *token, keep && done > 0); });
+            if (keep && done > 0) chosen.supports->add(finished);
             progress(++done, slicer.layer_count());
         }
         front.remove(token);
@@ -52,11 +63,17 @@ std::vector<Candidate> sweep_candidates(const Slicer& slicer, const Settings& se
     tbb::parallel_pipeline(front.window(limit), front.filter() & tbb::make_filter<TokenPtr, void>(tbb::filter_mode::serial_in_order, sweep));
     if (stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
 
-    std::vector<Candidate> candidates;
-    for (const Sweep& s : sweeps) candidates.push_back({s.settings.narrow_bonus, s.settings.seed, s.length / units_per_mm});
-    const auto least = std::min_element(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.length_mm < b.length_mm; });
-    std::rotate(candidates.begin(), least, least + 1);
-    return candidates;
+    for (const Sweep& s : sweeps) chosen.candidates.push_back({s.settings.narrow_bonus, s.settings.seed, s.length / units_per_mm});
+    const auto least = std::min_element(chosen.candidates.begin(), chosen.candidates.end(), [](const Candidate& a, const Candidate& b) { return a.length_mm < b.length_mm; });
+    chosen.sweep = static_cast<std::size_t>(least - chosen.candidates.begin());
+    std::rotate(chosen.candidates.begin(), least, least + 1);
+    if (keep) {
+        // Under layer 0 nothing continues.
+        for (std::size_t k = 0; k < sweeps.size(); ++k) finished[k] = packed_supports(sweeps[k].supports);
+        chosen.supports->add(finished);
+        chosen.supports->finish();
+    }
+    return chosen;
 }
 
 }  // namespace ribvault

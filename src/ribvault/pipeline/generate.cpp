@@ -1,5 +1,6 @@
 #include "ribvault/pipeline/generate.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -84,7 +85,9 @@ public:
 
         const auto finish = [&](const SweptLayer& layer, const LayerMaterial* below) { return std::shared_ptr<void>(finish_layer(slicer, layer, below)); };
         const auto collect = [&](const SweptLayer&, std::shared_ptr<void> output) { collect_layer(std::static_pointer_cast<LayerOutput>(output)); };
-        times_.merge(sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop, outside));
+        std::function<LayerSupports(std::size_t)> made;
+        if (chosen_.supports) made = [&](std::size_t depth) { return chosen_.supports->at(chosen_.sweep, depth); };
+        times_.merge(sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop, outside, made));
         times_.erase("finish");  // its parts are counted one by one
         while (!waiting_.empty()) join();
         times_["proof"] = 1e-9 * static_cast<double>(proof_), times_["paths"] = 1e-9 * static_cast<double>(paths_);
@@ -119,7 +122,8 @@ private:
     /// Settles what the settings leave open.
     void choose(const Slicer& slicer, const OutsideRoom* room) {
         const auto from = Time::now();
-        report_.candidates = sweep_candidates(slicer, job_.settings, job_.threads, job_.stop, room, job_.choosing);
+        chosen_ = sweep_candidates(slicer, job_.settings, job_.threads, job_.stop, room, job_.choosing);
+        report_.candidates = chosen_.candidates;
         if (!report_.candidates.empty()) {
             job_.settings.narrow_bonus = report_.candidates.front().narrow_bonus, job_.settings.seed = report_.candidates.front().seed;
             times_["choose"] = seconds_since(from);
@@ -159,8 +163,7 @@ private:
         r.verdict.layer = layer.layer;
         r.verdict.supported = true;  // layer 0 lies on the bed
         if (below) r.verdict = prove_layer(layer, *below, s);
-        if (s.stands_off()) check_gap(*layer.slice, swept.held.plan, r.verdict);
-        for (const auto& above : layer.slices_above) check_gap(*above, swept.held.plan, r.verdict);
+        if (s.stands_off()) check_gap(swept, r);
         PrintVerdict print_over_gap;
         for (const PrintPart& part : swept.held.parts) add_verdict(part.judgement.verdict(), part.over_gap ? print_over_gap : output->print_above);
         for (const OverGap& over : swept.over_gap) output->over_gap.push_back({over.upper.layer, prove_over_gap(over, layer, s), over.over_bed ? PrintVerdict() : print_over_gap});
@@ -232,16 +235,19 @@ private:
         return output;
     }
 
-    /// What is extruded outside keeps g off the object on this layer and on those of the gap above it, or the layer is not proved.
-    void check_gap(const Slice& slice, const LayerPlan& plan, LayerVerdict& verdict) const {
-        std::vector<Segment> outside;
-        for (const PlannedTrack& track : plan.tracks)
-            for (const ToolPath& path : track.paths)
-                if (path.kind == TrackKind::external_support) append_segments(path, outside);
-        const std::optional<Segment> near = find_too_near(*slice.exact, outside, job_.settings.support_gap + job_.settings.nozzle / 2);
+    /// What is extruded outside keeps g off the object on this layer and on those of the gap above it, or the layer is not proved. Where it does not keep g off
+    /// patches of the object, the report says so.
+    void check_gap(const SweptLayer& layer, LayerReport& report) const {
+        const Settings& s = job_.settings;
+        const std::vector<Segment> outside = segments_of(layer.held.plan, TrackKind::external_support);
+        std::optional<Segment> near = find_too_near(*layer.material.slice->exact, outside, s.support_gap + s.nozzle / 2);
+        for (const auto& above : layer.material.slices_above)
+            if (!near) near = find_too_near(*above->exact, outside, s.support_gap + s.nozzle / 2);
+        report.patch_in_gap = std::any_of(layer.patches.begin(), layer.patches.end(),
+                                          [&](const auto& patches) { return find_too_near(*patches, outside, s.support_gap + s.nozzle).has_value(); });
         if (!near) return;
-        verdict.supported = false;
-        verdict.malformed = "the external support at (" + std::to_string(to_mm(near->a.x)) + ", " + std::to_string(to_mm(near->a.y)) + ") mm is nearer to the object than the gap";
+        report.verdict.supported = false;
+        report.verdict.malformed = "the external support at (" + std::to_string(to_mm(near->a.x)) + ", " + std::to_string(to_mm(near->a.y)) + ") mm is nearer to the object than the gap";
     }
 
     /// Layers come from the top. Each waits for the one below it, to which it is joined then, and for that whose external supports hold it up.
@@ -344,6 +350,7 @@ private:
     Job job_;  ///< with what was chosen
     Time::time_point start_;
     Mesh mesh_;
+    Chosen chosen_;
     RunReport report_;
     std::string kept_walls_, end_of_layers_;
     std::deque<std::shared_ptr<LayerOutput>> waiting_;  ///< from the top

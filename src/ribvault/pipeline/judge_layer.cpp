@@ -80,6 +80,12 @@ PrintedLayer without_bridges(const GcodeLayer& layer, PrintedLayer upper, const 
     return take_out_bridges(upper, continues, verdict, bridges).layer;
 }
 
+/// Of groups of tracks that were judged apart.
+struct GroupVerdict {
+    PrintedVerdict all;
+    bool unlocated = false;  ///< a group is refuted and no region shows where
+};
+
 void add_verdict(PrintedVerdict more, PrintedVerdict& verdict) {
     verdict.centre_lines_supported = verdict.centre_lines_supported && more.centre_lines_supported;
     verdict.supported = verdict.supported && more.supported;
@@ -89,6 +95,11 @@ void add_verdict(PrintedVerdict more, PrintedVerdict& verdict) {
     std::stable_sort(verdict.pieces.begin(), verdict.pieces.end(), [](const UnsupportedPiece& a, const UnsupportedPiece& b) { return a.track < b.track; });
     std::move(more.regions.begin(), more.regions.end(), std::back_inserter(verdict.regions));
     verdict.stages += more.stages;
+}
+
+GroupVerdict located(PrintedVerdict verdict) {
+    const bool unlocated = !verdict.supported && verdict.regions.empty();
+    return {std::move(verdict), unlocated};
 }
 
 /// The entries under this one and under its gap, each once; nothing where the gap reaches down to the bed.
@@ -106,11 +117,11 @@ std::optional<std::vector<std::size_t>> entries_below(const GcodePrint& print, s
 
 /// All of `upper` over `lower`, the material directly below, or where the rules tell supports from the object, each over what may hold it up: all of
 /// that is `lower` then.
-PrintedVerdict judge_groups(const GcodePrint& print, std::size_t entry, const PrintedLayer& upper, PrintedLayer& lower, const std::vector<char>& judged,
+GroupVerdict judge_groups(const GcodePrint& print, std::size_t entry, const PrintedLayer& upper, PrintedLayer& lower, const std::vector<char>& judged,
                             const LayerRules& rules) {
     PrintedOptions options;
     options.judged = judged, options.distance_cells = distance_cells;
-    if (rules.object_reach == 0 && rules.gap_layers == 0 && !rules.supports_alone) return verify_printed(upper, lower, rules.support_radius, options);
+    if (rules.object_reach == 0 && rules.gap_layers == 0 && !rules.supports_alone) return located(verify_printed(upper, lower, rules.support_radius, options));
     const auto is_support = [&](const PrintedTrack& t) { return print.features[static_cast<std::size_t>(t.feature)].kind == FeatureKind::support; };
     const auto group = [&](bool supports) {
         std::vector<char> chosen = judged;
@@ -132,15 +143,16 @@ PrintedVerdict judge_groups(const GcodePrint& print, std::size_t entry, const Pr
     if (rules.supports_alone) std::erase_if(lower.tracks, [&](const PrintedTrack& t) { return !is_support(t); });
     widen(lower), widen(under_object);
     options.judged = group(true);
-    PrintedVerdict verdict = verify_printed(upper, lower, rules.support_radius, options);
+    GroupVerdict verdict = located(verify_printed(upper, lower, rules.support_radius, options));
     if (!entries) return verdict;  // the bed holds up the object
     options.judged = group(false);
-    PrintedVerdict object = verify_printed(upper, under_object, rules.support_radius, options);
-    for (UnsupportedRegion& region : object.regions)
+    GroupVerdict object = located(verify_printed(upper, under_object, rules.support_radius, options));
+    for (UnsupportedRegion& region : object.all.regions)
         for (BoundaryCurve& curve : region.boundary.curves)
             if (!curve.above) curve.track += lower.tracks.size();
     std::move(under_object.tracks.begin(), under_object.tracks.end(), std::back_inserter(lower.tracks));
-    add_verdict(std::move(object), verdict);
+    verdict.unlocated = verdict.unlocated || object.unlocated;
+    add_verdict(std::move(object.all), verdict.all);
     return verdict;
 }
 
@@ -184,7 +196,7 @@ JudgedLayer judge_layer(const GcodePrint& print, std::size_t entry, const LayerR
         const std::vector<char> judged = judged_of(upper);
         upper = without_bridges(layer, std::move(upper), lower, judged, rules, result);
     }
-    const PrintedVerdict verdict = judge_groups(print, entry, upper, lower, judged_of(upper), rules);
+    const auto [verdict, unlocated] = judge_groups(print, entry, upper, lower, judged_of(upper), rules);
     out.stages += verdict.stages;
     for (std::size_t k = 0; k < upper.tracks.size(); ++k) {
         const Enclosure length{verdict.unsupported_length[k][0], verdict.unsupported_length[k][1]};
@@ -194,7 +206,7 @@ JudgedLayer judge_layer(const GcodePrint& print, std::size_t entry, const LayerR
     for (const UnsupportedPiece& p : verdict.pieces) out.pieces.push_back(describe(p, upper));
     for (const UnsupportedRegion& r : verdict.regions) out.regions.push_back(describe(r, upper, lower, rules.min_area));
     const auto counts = [](const HangingRegion& r) { return !r.ignored; };
-    out.supported = verdict.supported || (!out.regions.empty() && std::none_of(out.regions.begin(), out.regions.end(), counts));
+    out.supported = verdict.supported || (!unlocated && std::none_of(out.regions.begin(), out.regions.end(), counts));
     return result;
 }
 

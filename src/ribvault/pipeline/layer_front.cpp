@@ -44,8 +44,9 @@ void enter_tracks(const SupportForest& forest, LayerMaterial& material) {
     material.external = std::make_shared<const std::vector<Segment>>(std::move(external));
 }
 
-LayerFront::LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks, const std::function<bool()>& stop, const OutsideRoom* room)
-    : slicer_(slicer), settings_(settings), tracks_(tracks), stop_(stop), room_(room), layers_(slicer.layer_count()),
+LayerFront::LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks, const std::function<bool()>& stop, const OutsideRoom* room,
+                       bool overhangs)
+    : slicer_(slicer), settings_(settings), tracks_(tracks), stop_(stop), room_(room), overhangs_wanted_(overhangs), layers_(slicer.layer_count()),
       last_(-settings.bottom_layers - 1), next_(layers_ - 1), window_top_(layers_ - 1) {}
 
 oneapi::tbb::filter<void, TokenPtr> LayerFront::filter() {
@@ -125,7 +126,7 @@ void LayerFront::hang(Token& token) {
             token.material.shell->layer = token.layer;
             append_shell_paths(*token.material.slice, token.material.cavity->region, settings_, *tracks_, *token.material.shell);
         });
-    if (!token.above.slice) return;
+    if (!token.above.slice || !overhangs_wanted_) return;
     overhangs_.measure([&] {
         token.overhang = overhang_over_cavity(*token.material.cavity, *token.above.slice, *token.above.cavity, settings_);
         if (settings_.outside())

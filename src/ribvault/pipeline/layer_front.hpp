@@ -83,8 +83,9 @@ void enter_tracks(const SupportForest& forest, LayerMaterial& material);
 /// Makes tokens of layers, from the top. One use: filter() is the head of one pipeline.
 class LayerFront {
 public:
-    /// Without `tracks` no shell is planned. All arguments must outlive the pipeline.
-    LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks, const std::function<bool()>& stop, const OutsideRoom* room);
+    /// Without `tracks` no shell is planned, without `overhangs` it is not looked what hangs. All arguments must outlive the pipeline.
+    LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks, const std::function<bool()>& stop, const OutsideRoom* room,
+               bool overhangs = true);
 
     oneapi::tbb::filter<void, TokenPtr> filter();
     /// A token that has been through the whole pipeline, in the order in which they left.
@@ -109,6 +110,7 @@ private:
     const TrackSettings* tracks_;
     const std::function<bool()>& stop_;
     const OutsideRoom* room_;
+    const bool overhangs_wanted_;
     const int layers_, last_;
     int next_;  ///< after the last slice come empty tokens that push the last layers through
     Tokens tokens_;

@@ -3,40 +3,21 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 
 #include <algorithm>
-#include <cstring>
 #include <deque>
 
 #include "ribvault/error.hpp"
+#include "ribvault/pipeline/packed_values.hpp"
 #include "ribvault/pipeline/thread_limit.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
 
 namespace ribvault {
 namespace {
 
-/// The number of contours, of each its number of points, then all points.
-std::string packed(const Region& region) {
-    std::vector<std::int64_t> numbers{static_cast<std::int64_t>(region.size())};
-    for (const Contour& contour : region) numbers.push_back(static_cast<std::int64_t>(contour.size()));
-    for (const Contour& contour : region)
-        for (const Point p : contour) numbers.push_back(p.x), numbers.push_back(p.y);
-    return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof numbers[0]};
-}
-
 /// With vertices left out that lie within `distance` of the line between their neighbours.
 Region simplified(const Region& region, double distance) {
     ClipperLib::Paths paths = to_clipper(region);
     ClipperLib::CleanPolygons(paths, distance);
     return from_clipper(paths);
-}
-
-Region unpacked(const std::string& text) {
-    std::vector<std::int64_t> numbers(text.size() / sizeof(std::int64_t));
-    std::memcpy(numbers.data(), text.data(), numbers.size() * sizeof numbers[0]);
-    Region region(static_cast<std::size_t>(numbers[0]));
-    std::size_t at = region.size() + 1;
-    for (std::size_t k = 0; k < region.size(); ++k)
-        for (std::int64_t n = numbers[k + 1]; n > 0; --n, at += 2) region[k].push_back({numbers[at], numbers[at + 1]});
-    return region;
 }
 
 }  // namespace
@@ -55,10 +36,18 @@ Region OutsideRoom::off(const std::shared_ptr<const Slice>& slice, const std::ve
 Cavity OutsideRoom::of(const std::shared_ptr<const Slice>& slice, const std::vector<std::shared_ptr<const Slice>>& above) const {
     Cavity outside = make_outside(*slice, frame_, settings_);
     if (ways_)
-        outside.walls = unpacked(ways_->at(static_cast<std::size_t>(slice->layer))), outside.on_bed = true;
+        outside.walls = way_at(slice->layer), outside.on_bed = true;
     else if (settings_.stands_off())
         outside.walls = off(slice, above);
     return outside;
+}
+
+Region OutsideRoom::way_at(int layer) const {
+    const std::string bytes = ways_->at(static_cast<std::size_t>(layer));
+    std::string_view rest = bytes;
+    Region way;
+    unpack(rest, way);
+    return way;
 }
 
 void OutsideRoom::find_ways_to_bed(const Slicer& slicer, int threads, const std::function<bool()>& stop) {
@@ -104,7 +93,9 @@ void OutsideRoom::find_ways_to_bed(const Slicer& slicer, int threads, const std:
     const auto follow = [&](const std::vector<LayerPtr>& complete) {
         for (const LayerPtr& layer : complete) {
             way = layer->slice->layer == 0 ? std::move(layer->off) : uncross(intersect(layer->off, offset(simplified(way, simple), reach, ClipperLib::jtRound, simple)));
-            ways_->add(packed(way));
+            std::string bytes;
+            pack(bytes, way);
+            ways_->add(bytes);
         }
     };
     tbb::parallel_pipeline(4 * limit, tbb::make_filter<void, int>(filter_mode::serial_in_order, produce) &

@@ -27,6 +27,7 @@ public:
 
 private:
     Region off(const std::shared_ptr<const Slice>& slice, const std::vector<std::shared_ptr<const Slice>>& above) const;
+    Region way_at(int layer) const;
     void find_ways_to_bed(const Slicer& slicer, int threads, const std::function<bool()>& stop);
 
     Box frame_;

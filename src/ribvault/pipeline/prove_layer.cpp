@@ -14,21 +14,16 @@ LayerGeometry geometry(const LayerMaterial& layer) { return {layer.slice->exact.
 /// What lies under a gap: the slice of the layer just below what hangs, whole, for what hangs over its cavity is another matter; of all others the shells alone.
 ExactPolygons under_gap(const LayerMaterial& next, const std::vector<const LayerMaterial*>& others) {
     std::vector<ExactContour> contours;
-    const auto add = [&](const ExactPolygon& polygon) { contours.emplace_back(polygon.vertices_begin(), polygon.vertices_end()); };
     const auto add_slice = [&](const Slice& slice) {
-        for (const ExactPolygonWithHoles& polygon : slice.exact->polygons) {
-            add(polygon.outer_boundary());
-            for (const ExactPolygon& hole : polygon.holes()) add(hole);
-        }
+        for_each_boundary(*slice.exact, [&](const ExactPolygon& boundary) { contours.emplace_back(boundary.vertices_begin(), boundary.vertices_end()); });
     };
-    const auto exact_mm = [](Unit u) { return ExactKernel::FT(static_cast<double>(u)) / ExactKernel::FT(static_cast<double>(units_per_mm)); };
     add_slice(*next.slice);
     for (const LayerMaterial* layer : others) {
         add_slice(*layer->slice);
         // The other way round: one less inside, where the slice has one.
         for (const Contour& contour : layer->cavity->region) {
             contours.emplace_back();
-            for (auto p = contour.rbegin(); p != contour.rend(); ++p) contours.back().push_back({exact_mm(p->x), exact_mm(p->y)});
+            for (auto p = contour.rbegin(); p != contour.rend(); ++p) contours.back().push_back(exact_mm(*p));
         }
     }
     return regularise(contours);

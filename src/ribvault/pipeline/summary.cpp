@@ -32,6 +32,9 @@ void describe_verdict(std::string& text, const RunReport& r) {
     if (gap && !r.verdict.external_overhangs.empty())
         print(text, "warning   on %zu layers there are crevices where the gap leaves no room for a support within rho; see \"external_overhangs\"\n",
               r.verdict.external_overhangs.size());
+    if (!r.verdict.layers_with_patches_in_gap.empty())
+        print(text, "warning   on %zu layers the object is too thin to be printed as thin as it is, and its tracks come nearer to a support than the gap\n",
+              r.verdict.layers_with_patches_in_gap.size());
     if (!r.verdict.proved)
         print(text, "NOT PROVED  %zu of %d layers are not supported:\n", r.verdict.layers_refuted.size(), layers);
     int shown = 0;

@@ -41,14 +41,15 @@ private:
 StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const TrackSettings& track_settings, int threads,
                         const std::function<std::shared_ptr<void>(const SweptLayer&, const LayerMaterial* below)>& finish,
                         const std::function<void(const SweptLayer&, std::shared_ptr<void>)>& collect,
-                        const std::function<bool()>& stop, const OutsideRoom* room) {
+                        const std::function<bool()>& stop, const OutsideRoom* room, const std::function<LayerSupports(std::size_t)>& made) {
     namespace tbb = oneapi::tbb;
     using tbb::filter_mode;
     const std::size_t limit = thread_limit(threads);
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
 
     Clock sweeping, holding, finishing;
-    LayerFront front(slicer, settings, &track_settings, stop, room);
+    LayerFront front(slicer, settings, &track_settings, stop, room, !made || settings.length_bound);
+    std::size_t depth = 0;
     std::shared_ptr<SweptLayer> previous;
     LengthBound length_bound;
     Overhung overhung(settings.support_gap_layers);
@@ -57,7 +58,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
             if (token->layer >= 0) {
                 SupportForest none;
                 SupportForest& forest = previous ? previous->forest : none;
-                LayerSupports supports = next_supports(forest, *token, settings);
+                LayerSupports supports = made ? made(depth++) : next_supports(forest, *token, settings);
                 double bound = 0;
                 if (settings.length_bound) bound = length_bound.next(*token->material.cavity, token->overhang, token->above.cavity.get(), settings);
                 enter_tracks(supports.forest, token->material);
@@ -65,7 +66,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
                 if (token->swept) token->swept->over_gap = overhung.over(token->swept->material);
                 token->below_swept = std::make_shared<const LayerMaterial>(token->material);
                 previous = std::make_shared<SweptLayer>(SweptLayer{
-                    std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), bound, supports.blocked, supports.braces, {}, nullptr, {}});
+                    std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), bound, supports.blocked, supports.braces, {}, nullptr, {}, {}});
             } else if (front.is_last(token) && previous) {
                 for (auto [e, end] = edges(previous->forest); e != end; ++e) previous->forest[*e].first_layer = true;
                 token->swept = std::move(previous);
@@ -76,6 +77,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
     };
     std::shared_ptr<const PrintedLayer> printed_above;
     std::deque<std::shared_ptr<const PrintedLayer>> printed;  // of the layers over a gap, from the top
+    std::deque<std::shared_ptr<const NearestSegment>> patches;  // of this layer and of those a gap above it
     const auto find_print_over_gap = [&](SweptLayer& layer) -> const PrintOverGap* {
         const PrintOverGap* found = nullptr;
         const int top = layer.material.layer + static_cast<int>(printed.size());
@@ -86,7 +88,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
             const PrintedLayer& upper = at(over.upper.layer);
             std::remove_copy_if(upper.tracks.begin(), upper.tracks.end(), std::back_inserter(object.tracks), is_external_support);
             auto hanging = std::make_shared<PrintedLayer>();
-            hanging->tracks = stretches_outside(object, at(over.upper.layer - 1));
+            hanging->tracks = extruded_outside(object, at(over.upper.layer - 1));
             over.print.hanging = std::move(hanging);
             for (const LayerMaterial& gap : over.gap) {
                 const std::vector<PrintedTrack> tracks = counted_below(at(gap.layer).tracks, settings);
@@ -105,6 +107,11 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
             token->swept->held = hold_print(std::move(*material.shell), token->swept->forest, printed_above.get(), settings, material.outside.get(), over_gap);
             token->swept->printed_above = std::move(printed_above);
             printed_above = token->swept->held.printed;
+            if (settings.stands_off()) {
+                patches.push_front(std::make_shared<const NearestSegment>(segments_of(token->swept->held.plan, TrackKind::support)));
+                if (patches.size() > static_cast<std::size_t>(settings.support_gap_layers) + 1) patches.pop_back();
+                token->swept->patches.assign(patches.begin(), patches.end());
+            }
             if (settings.support_gap_layers > 0) {
                 printed.push_back(printed_above);
                 if (printed.size() > static_cast<std::size_t>(settings.support_gap_layers) + 1) printed.pop_front();

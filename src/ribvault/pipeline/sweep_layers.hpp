@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/pipeline/outside_room.hpp"
 #include "ribvault/print/hold_print.hpp"
 #include "ribvault/print/track_settings.hpp"
 #include "ribvault/settings.hpp"
 #include "ribvault/slice/cavity.hpp"
 #include "ribvault/slice/slice_mesh.hpp"
-#include "ribvault/vault/support_forest.hpp"
+#include "ribvault/vault/next_layer.hpp"
 
 namespace ribvault {
 
@@ -48,6 +49,7 @@ struct SweptLayer {
     int braces = 0;        ///< walls that give a long tree its second root
     HeldLayer held;        ///< what is printed
     std::shared_ptr<const PrintedLayer> printed_above;  ///< on the layer above; nullptr: this is the top
+    std::vector<std::shared_ptr<const NearestSegment>> patches;  ///< where supports stand off: the object's tracks of kind support on this layer and on the next settings.support_gap_layers
     std::vector<OverGap> over_gap;  ///< what the external supports of this layer hold up through the gap above them (settings.support_gap_layers)
 };
 
@@ -59,12 +61,14 @@ using StageTimes = std::map<std::string, double>;
 /// to bottom, one at a time. At most a window of layers is alive at any time, whatever their number. The result does not
 /// depend on `threads` (0: all).
 ///
-/// `room`: where external supports stand; needed when settings.outside().
+/// `room`: where external supports stand; needed when settings.outside(). `made`: supports that a sweep with the same settings made, layer by layer from the top; without it
+/// they are swept here.
 ///
 /// Throws what its parts throw, and Error (interrupted) soon after `stop()` returned true.
 StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const TrackSettings& track_settings, int threads,
                         const std::function<std::shared_ptr<void>(const SweptLayer&, const LayerMaterial* below)>& finish,
                         const std::function<void(const SweptLayer&, std::shared_ptr<void>)>& collect,
-                        const std::function<bool()>& stop, const OutsideRoom* room = nullptr);
+                        const std::function<bool()>& stop, const OutsideRoom* room = nullptr,
+                        const std::function<LayerSupports(std::size_t depth)>& made = nullptr);
 
 }  // namespace ribvault

@@ -16,6 +16,7 @@ namespace ribvault {
 namespace {
 
 constexpr int rounds = 6;  ///< of mending, each of which is followed by another look
+constexpr Unit within_edge = 5;  ///< by so much more than needed for rounding a patch may stand out of the slice whose edge it follows
 
 double distance(const Segment& s, const Segment& t) {
     if (segments_touch(s, t)) return 0;
@@ -283,15 +284,65 @@ private:
         }
     }
 
-    /// With a removal gap only where walls may.
+    /// With a removal gap only where walls may, and off the object's patches.
     bool may_stand_outside(const Segment& s) {
         if (!beside_ || !beside_->walls) return beside_ != nullptr;
+        if (std::any_of(patches_.begin(), patches_.end(), [&](const Patch& patch) { return patch.kind == TrackKind::support && distance(patch.segment, s) < static_cast<double>(apart()); }))
+            return false;
         const Place& walls = gap_places().walls;
         Box box;
         box.add(s.a), box.add(s.b);
         bool crosses = false;
         walls.edges.visit(box, [&](std::uint32_t k) { crosses = crosses || segments_touch(walls.edges.segments()[k], s); });
         return !crosses && walls.location.locate(s.a) == Side::inside;
+    }
+
+    /// How far apart the centre lines of the object's tracks and of supports are to be.
+    Unit apart() const { return settings_.support_gap + settings_.nozzle; }
+
+    /// How far a patch of the object is from what is printed outside, as far as apart() and a hair.
+    double room_around(const Segment& patch) const {
+        Box box;
+        box.add(patch.a), box.add(patch.b);
+        box.grow(apart() + 1);
+        double room = static_cast<double>(apart() + 1);
+        tracks_->segments().visit(box, [&](std::uint32_t k) {
+            const PlanTracks::Place place = tracks_->place(k);
+            if (without_patches_.tracks[place.track].paths[place.path].kind == TrackKind::external_support)
+                room = std::min(room, distance(tracks_->segments().segments()[k], patch));
+        });
+        for (const Patch& other : patches_)
+            if (other.kind == TrackKind::external_support) room = std::min(room, distance(other.segment, patch));
+        return room;
+    }
+    bool keeps_off_supports(const Segment& patch) const { return room_around(patch) >= static_cast<double>(apart()); }
+
+    /// The place for a patch of the object that holds up what is over p: the point of the slice nearest to p, moved inwards as far as needed to keep off external supports, at most
+    /// until the track keeps within the slice's edge there. Where they are too near on both sides, the place farthest from them.
+    Point place_in_object(Point p) {
+        const Place& air = gap_places().air;
+        const Segment& edge = air.edges.segments()[air.edges.nearest(p).index];
+        const Point foot = nearest_point(p, edge);
+        const bool outside = air.location.locate(p) == Side::inside;
+        const Unit flush = settings_.nozzle / 2 - within_edge;
+        if (!outside && compare_distance(p, edge, flush) >= 0) return p;
+        // From air to object: across the edge, whose left is air, or past a corner.
+        Point way{edge.b.y - edge.a.y, edge.a.x - edge.b.x};
+        if ((foot == edge.a || foot == edge.b) && length(p - foot) > 100) way = outside ? foot - p : p - foot;
+        const double l = length(way);
+        const auto moved = [&](Unit by) {
+            const double t = l > 0 ? static_cast<double>(by) / l : 0;
+            return foot + Point{round_to_lattice(t * static_cast<double>(way.x)), round_to_lattice(t * static_cast<double>(way.y))};
+        };
+        const Point nearest = outside ? foot : p;
+        Point best = nearest;
+        double most = -1;
+        for (const Point place : {nearest, moved(flush / 4), moved(flush / 2), moved(3 * flush / 4), moved(flush)}) {
+            const double room = room_around({place, place});
+            if (room > most) best = place, most = room;
+            if (room >= static_cast<double>(apart())) break;
+        }
+        return best;
     }
 
     /// Within a removal gap patches are the object's: where its slice is too thin to be printed, they are printed, in pieces short
@@ -306,14 +357,14 @@ private:
         for (std::size_t k = 0; k <= pieces; ++k) {
             const double t = static_cast<double>(k) / static_cast<double>(pieces);
             const Point d = hanging.b - hanging.a, p = hanging.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))};
-            at.push_back(air.locate(p) == Side::inside ? nearest_point(p, near.segments()[near.nearest(p).index]) : p);
-            if (length(at.back() - p) > static_cast<double>(reach)) return patches_.resize(before), false;
+            if (air.locate(p) == Side::inside && compare_distance(p, near.segments()[near.nearest(p).index], reach) > 0) return patches_.resize(before), false;
+            at.push_back(place_in_object(p));
             if (k == 0) continue;
             // Feet on two sides of a notch: the way between them would lie in the air.
             const Point middle{(at[k - 1].x + at[k].x) / 2, (at[k - 1].y + at[k].y) / 2};
             const bool apart = air.locate(middle) == Side::inside &&
                                compare_distance(middle, near.segments()[near.nearest(middle).index], settings_.nozzle / 4) > 0;
-            if (apart) {
+            if (apart || !keeps_off_supports({at[k - 1], at[k]})) {
                 patches_.push_back({{at[k - 1], at[k - 1]}, TrackKind::support});
                 patches_.push_back({{at[k], at[k]}, TrackKind::support});
             } else {

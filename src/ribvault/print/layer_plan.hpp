@@ -24,4 +24,13 @@ struct LayerPlan {
     double unfilled_area = 0;  ///< of the shell inside the perimeters that is too narrow for any track, the same
 };
 
+/// The centre lines of all tracks of a kind.
+inline std::vector<Segment> segments_of(const LayerPlan& plan, TrackKind kind) {
+    std::vector<Segment> segments;
+    for (const PlannedTrack& track : plan.tracks)
+        for (const ToolPath& path : track.paths)
+            if (path.kind == kind) append_segments(path, segments);
+    return segments;
+}
+
 }  // namespace ribvault

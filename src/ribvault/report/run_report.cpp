@@ -49,6 +49,7 @@ void sum_up(RunReport& report) {
             v.layers_refuted.push_back(layer.layer);
         if (const auto& out = layer.verdict.external)
             v.external_overhangs.push_back({layer.layer, out->area_lo, out->area_hi});
+        if (layer.patch_in_gap) v.layers_with_patches_in_gap.push_back(layer.layer);
         v.stages += layer.verdict.stages;
         if (!layer.print.supported) v.print_layers_refuted.push_back(layer.layer);
         for (const std::size_t k : {0, 1}) {

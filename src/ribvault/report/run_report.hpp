@@ -51,6 +51,7 @@ struct LayerReport {
     PrintVerdict print;      ///< the same for what is extruded
     int closed_gaps = 0;     ///< branches printed up to their junction because a gap would have let something above hang
     int patches = 0;         ///< short tracks that hold what the shell's own tracks leave open
+    bool patch_in_gap = false;  ///< an external support is nearer than the removal gap to a patch of the object, here or on a layer of the gap above
     double patch_length_mm = 0;
     std::vector<GapClosing> closings;
 };
@@ -101,6 +102,7 @@ struct VerdictSummary {
     int layers_proved = 0;
     std::vector<int> layers_refuted;
     std::vector<ExternalOverhang> external_overhangs;
+    std::vector<int> layers_with_patches_in_gap;
     StageCounts stages;
     bool print_proved = false;               ///< what is extruded satisfies (2) on every layer, inside the outline below
     std::vector<int> print_layers_refuted;

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "ribvault/exact/lattice.hpp"
+
 namespace ribvault {
 
 using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
@@ -35,5 +37,20 @@ inline double approximate(const ExactKernel::FT& a) {
 struct ExactPolygons {
     std::vector<ExactPolygonWithHoles> polygons;
 };
+
+/// Calls visit(boundary) for every outer boundary and every hole, each an ExactPolygon.
+template <class Visit>
+void for_each_boundary(const ExactPolygons& polygons, Visit&& visit) {
+    for (const ExactPolygonWithHoles& polygon : polygons.polygons) {
+        visit(polygon.outer_boundary());
+        for (const ExactPolygon& hole : polygon.holes()) visit(hole);
+    }
+}
+
+/// Lattice lengths and points in mm, exactly.
+inline ExactKernel::FT exact_mm(Unit length) {
+    return ExactKernel::FT(static_cast<double>(length)) / ExactKernel::FT(static_cast<double>(units_per_mm));
+}
+inline ExactKernel::Point_2 exact_mm(Point p) { return {exact_mm(p.x), exact_mm(p.y)}; }
 
 }  // namespace ribvault

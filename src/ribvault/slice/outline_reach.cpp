@@ -13,8 +13,6 @@ using Number = ExactKernel::FT;
 using ExactPoint = ExactKernel::Point_2;
 using ExactSegment = ExactKernel::Segment_2;
 
-Number exact_mm(Unit length) { return Number(static_cast<double>(length)) / Number(static_cast<double>(units_per_mm)); }
-
 struct Edge {
     ExactSegment segment;
     CGAL::Bbox_2 box;
@@ -24,7 +22,7 @@ struct Edge {
 std::vector<Edge> edges_of(const ExactPolygons& outline) {
     std::vector<Edge> edges;
     // Where a facet's diagonal crosses the plane an edge has vertices on it, at another place in each slice: they are left out.
-    const auto add = [&](const ExactPolygon& polygon) {
+    for_each_boundary(outline, [&](const ExactPolygon& polygon) {
         std::vector<ExactPoint> corners;
         const std::size_t n = polygon.size();
         for (std::size_t k = 0; k < n; ++k)
@@ -33,11 +31,7 @@ std::vector<Edge> edges_of(const ExactPolygons& outline) {
             const ExactSegment edge(corners[k], corners[(k + 1) % corners.size()]);
             edges.push_back({edge, edge.bbox()});
         }
-    };
-    for (const ExactPolygonWithHoles& polygon : outline.polygons) {
-        add(polygon.outer_boundary());
-        for (const ExactPolygon& hole : polygon.holes()) add(hole);
-    }
+    });
     return edges;
 }
 

@@ -7,9 +7,6 @@ namespace {
 
 using Number = ExactKernel::FT;
 
-Number exact_mm(Unit length) { return Number(static_cast<double>(length)) / Number(static_cast<double>(units_per_mm)); }
-ExactKernel::Point_2 exact(Point p) { return {exact_mm(p.x), exact_mm(p.y)}; }
-
 /// An edge of the outline with a box around it.
 struct OutlineEdge {
     ExactKernel::Segment_2 edge;
@@ -17,13 +14,9 @@ struct OutlineEdge {
 };
 std::vector<OutlineEdge> edges_of(const ExactPolygons& outline) {
     std::vector<OutlineEdge> edges;
-    const auto add = [&](const ExactPolygon& polygon) {
+    for_each_boundary(outline, [&](const ExactPolygon& polygon) {
         for (auto e = polygon.edges_begin(); e != polygon.edges_end(); ++e) edges.push_back({*e, e->bbox()});
-    };
-    for (const ExactPolygonWithHoles& polygon : outline.polygons) {
-        add(polygon.outer_boundary());
-        for (const ExactPolygon& hole : polygon.holes()) add(hole);
-    }
+    });
     return edges;
 }
 
@@ -48,7 +41,7 @@ std::optional<Segment> find_too_near(const ExactPolygons& outline, const std::ve
     const Number least = exact_mm(distance) * exact_mm(distance);
     const double by = to_mm(distance) + 1e-6;
     for (const Segment& track : tracks) {
-        const ExactKernel::Point_2 a = exact(track.a), b = exact(track.b);
+        const ExactKernel::Point_2 a = exact_mm(track.a), b = exact_mm(track.b);
         const CGAL::Bbox_2 box = a.bbox() + b.bbox();
         for (const OutlineEdge& e : edges) {
             if (e.box.xmin() > box.xmax() + by || e.box.xmax() < box.xmin() - by || e.box.ymin() > box.ymax() + by || e.box.ymax() < box.ymin() - by) continue;
@@ -56,6 +49,18 @@ std::optional<Segment> find_too_near(const ExactPolygons& outline, const std::ve
             if (d < least) return track;
         }
         if (inside(edges, a)) return track;
+    }
+    return std::nullopt;
+}
+
+std::optional<Segment> find_too_near(const NearestSegment& object, const std::vector<Segment>& tracks, Unit distance) {
+    for (const Segment& track : tracks) {
+        Box box;
+        box.add(track.a), box.add(track.b);
+        box.grow(distance);
+        bool near = false;
+        object.visit(box, [&](std::uint32_t k) { near = near || compare_distance(object.segments()[k], track, distance) < 0; });
+        if (near) return track;
     }
     return std::nullopt;
 }

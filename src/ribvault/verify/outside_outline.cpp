@@ -79,6 +79,14 @@ public:
     bool empty() const { return edges_.empty(); }
     const Millimetres& width() const { return narrowest_->width; }
 
+    std::vector<PrintedTrack> outside(const PrintedLayer& upper) const {
+        if (empty()) return upper.tracks;
+        std::vector<PrintedTrack> result;
+        for (const PrintedTrack& track : upper.tracks) add_outside(track, result);
+        return result;
+    }
+
+private:
     void add_outside(const PrintedTrack& track, std::vector<PrintedTrack>& result) const {
         const Approximate t(track);
         const double c = std::max(largest_, t.size()), margin = 0x1p-46 * c;
@@ -105,10 +113,9 @@ public:
         }
     }
 
-private:
     void add(const PrintedTrack& track, const PrintedPoint& from, const PrintedPoint& to, std::vector<PrintedTrack>& result) const {
         PrintedTrack piece = track;
-        piece.a = from, piece.b = to, piece.width = width(), piece.outline = false;
+        piece.a = from, piece.b = to, piece.outline = false;
         result.push_back(std::move(piece));
     }
     static PrintedPoint printed(const RationalPoint& p) { return {p[0], p[1]}; }
@@ -205,11 +212,13 @@ private:
 
 }  // namespace
 
+std::vector<PrintedTrack> extruded_outside(const PrintedLayer& upper, const PrintedLayer& lower) { return Outline(lower).outside(upper); }
+
 std::vector<PrintedTrack> stretches_outside(const PrintedLayer& upper, const PrintedLayer& lower) {
     const Outline outline(lower);
-    if (outline.empty()) return upper.tracks;
-    std::vector<PrintedTrack> result;
-    for (const PrintedTrack& track : upper.tracks) outline.add_outside(track, result);
+    std::vector<PrintedTrack> result = outline.outside(upper);
+    if (!outline.empty())
+        for (PrintedTrack& stretch : result) stretch.width = outline.width();
     return result;
 }
 

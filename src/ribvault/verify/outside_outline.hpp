@@ -17,5 +17,7 @@ namespace ribvault {
 /// outside lies within half a width of a point of its centre line; that one is outside (then x is in V) or the way crosses
 /// the outline (then x is in K).
 std::vector<PrintedTrack> stretches_outside(const PrintedLayer& upper, const PrintedLayer& lower);
+/// The same stretches, each as wide as its track: what is extruded there.
+std::vector<PrintedTrack> extruded_outside(const PrintedLayer& upper, const PrintedLayer& lower);
 
 }  // namespace ribvault

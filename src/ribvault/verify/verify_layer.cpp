@@ -47,10 +47,7 @@ std::vector<Edge> add_segments(const std::vector<Segment>& segments, std::vector
 
 LayerEdges add_layer(const LayerGeometry& layer, std::vector<Vertex>& vertices, std::string& malformed) {
     LayerEdges edges;
-    for (const ExactPolygonWithHoles& polygon : layer.outline->polygons) {
-        add_polygon(polygon.outer_boundary(), vertices, edges.outline);
-        for (const ExactPolygon& hole : polygon.holes()) add_polygon(hole, vertices, edges.outline);
-    }
+    for_each_boundary(*layer.outline, [&](const ExactPolygon& polygon) { add_polygon(polygon, vertices, edges.outline); });
     const CavityBoundary cavity = cavity_boundary(*layer.cavity);
     malformed = cavity.malformed;
     edges.cavity = add_segments(cavity.edges, vertices);
