@@ -317,27 +317,36 @@ private:
     }
     bool keeps_off_supports(const Segment& patch) const { return room_around(patch) >= static_cast<double>(apart()); }
 
-    /// The place for a patch of the object that holds up what is over p: the point of the slice nearest to p, moved inwards as far as needed to keep off external supports, at most
-    /// until the track keeps within the slice's edge there. Where they are too near on both sides, the place farthest from them.
-    Point place_in_object(Point p) {
+    /// Where a track must run that keeps within the slice at its edge next to p, however far inside p is: `depth` from the edge.
+    Point moved_inwards(Point p, Unit depth) {
         const Place& air = gap_places().air;
         const Segment& edge = air.edges.segments()[air.edges.nearest(p).index];
         const Point foot = nearest_point(p, edge);
-        const bool outside = air.location.locate(p) == Side::inside;
-        const Unit flush = settings_.nozzle / 2 - within_edge;
-        if (!outside && compare_distance(p, edge, flush) >= 0) return p;
         // From air to object: across the edge, whose left is air, or past a corner.
         Point way{edge.b.y - edge.a.y, edge.a.x - edge.b.x};
-        if ((foot == edge.a || foot == edge.b) && length(p - foot) > 100) way = outside ? foot - p : p - foot;
-        const double l = length(way);
-        const auto moved = [&](Unit by) {
-            const double t = l > 0 ? static_cast<double>(by) / l : 0;
-            return foot + Point{round_to_lattice(t * static_cast<double>(way.x)), round_to_lattice(t * static_cast<double>(way.y))};
-        };
-        const Point nearest = outside ? foot : p;
+        if ((foot == edge.a || foot == edge.b) && length(p - foot) > 100) way = air.location.locate(p) == Side::inside ? foot - p : p - foot;
+        const double l = length(way), t = l > 0 ? static_cast<double>(depth) / l : 0;
+        return foot + Point{round_to_lattice(t * static_cast<double>(way.x)), round_to_lattice(t * static_cast<double>(way.y))};
+    }
+    bool is_within(Point p, Unit depth) {
+        const Place& air = gap_places().air;
+        return air.location.locate(p) != Side::inside && compare_distance(p, air.edges.segments()[air.edges.nearest(p).index], depth) >= 0;
+    }
+
+    /// The place for a patch of the object that holds up what is over p: as near to it as a track can be that does not stand out of the slice. Where the slice has no room for one,
+    /// the point of the slice nearest to p, moved inwards as far as needed to keep off external supports; where they are too near on both sides, the place farthest from them.
+    Point place_in_object(Point p) {
+        const Unit flush = settings_.nozzle / 2 - within_edge;
+        Point within = p;
+        for (int step = 0; step < 4; ++step) {
+            if (is_within(within, flush - within_edge)) return within;
+            within = moved_inwards(within, flush);
+        }
+        const Place& air = gap_places().air;
+        const Point nearest = air.location.locate(p) == Side::inside ? nearest_point(p, air.edges.segments()[air.edges.nearest(p).index]) : p;
         Point best = nearest;
         double most = -1;
-        for (const Point place : {nearest, moved(flush / 4), moved(flush / 2), moved(3 * flush / 4), moved(flush)}) {
+        for (const Point place : {nearest, moved_inwards(p, flush / 4), moved_inwards(p, flush / 2), moved_inwards(p, 3 * flush / 4), moved_inwards(p, flush)}) {
             const double room = room_around({place, place});
             if (room > most) best = place, most = room;
             if (room >= static_cast<double>(apart())) break;
@@ -431,10 +440,12 @@ private:
                 const Point d = whole.b - whole.a;
                 return whole.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))};
             };
-            // Where the slice is not printed at its edge, the rim of what hangs may be within its reach though the centre line is not.
-            for (std::size_t k = 0; k < pieces; ++k)
-                if (!patch_object({at(k), at(k + 1)}, settings_.reach_of_object()) && !(edge_is_printed(at(k)) && edge_is_printed(at(k + 1))))
+            // Where the slice is not printed at its edge; the rim of what hangs may be within its reach though the centre line is not.
+            for (std::size_t k = 0; k < pieces; ++k) {
+                if (edge_is_printed(at(k)) && edge_is_printed(at(k + 1))) continue;
+                if (!patch_object({at(k), at(k + 1)}, settings_.reach_of_object()))
                     patch_object({at(k), at(k + 1)}, settings_.reach_of_object() + settings_.nozzle / 2);
+            }
         }
         if (held_.patches == before) {
             held_.plan = without_patches_;
@@ -446,7 +457,8 @@ private:
         for (PrintPart& part : held_.parts) part.judgement.change_below(*held_.printed);
     }
 
-    /// Is the place of the slice that is nearest to p covered by a track?
+    /// Is the place of the slice that is nearest to p covered by a track, but for what its rounded corners leave? A corner of 90° leaves 0.41 r. What hangs just beyond those
+    /// the supports under the gap hold up, or it is found there.
     bool edge_is_printed(Point p) {
         const Place& air = gap_places().air;
         const Point foot = air.location.locate(p) == Side::inside ? nearest_point(p, air.edges.segments()[air.edges.nearest(p).index]) : p;
@@ -457,7 +469,7 @@ private:
         tracks_->segments().visit(box, [&](std::uint32_t k) {
             const PlanTracks::Place place = tracks_->place(k);
             const Unit width = without_patches_.tracks[place.track].paths[place.path].width;
-            printed = printed || compare_distance(foot, tracks_->segments().segments()[k], width / 2 + 10) <= 0;
+            printed = printed || compare_distance(foot, tracks_->segments().segments()[k], width / 2 + settings_.nozzle / 4) <= 0;
         });
         return printed;
     }
