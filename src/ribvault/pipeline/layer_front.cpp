@@ -47,7 +47,7 @@ void enter_tracks(const SupportForest& forest, LayerMaterial& material) {
 LayerFront::LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks, const std::function<bool()>& stop, const OutsideRoom* room,
                        bool overhangs)
     : slicer_(slicer), settings_(settings), tracks_(tracks), stop_(stop), room_(room), overhangs_wanted_(overhangs), layers_(slicer.layer_count()),
-      last_(-settings.bottom_layers - 1), next_(layers_ - 1), window_top_(layers_ - 1) {}
+      last_(-settings.bottom_layers - 1 - static_cast<int>(delay())), next_(layers_ - 1), window_top_(layers_ - 1) {}
 
 oneapi::tbb::filter<void, TokenPtr> LayerFront::filter() {
     namespace tbb = oneapi::tbb;

@@ -4,6 +4,7 @@
 
 #include <oneapi/tbb/parallel_pipeline.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <deque>
@@ -90,8 +91,8 @@ public:
     oneapi::tbb::filter<void, TokenPtr> filter();
     /// A token that has been through the whole pipeline, in the order in which they left.
     void remove(TokenPtr) { tokens_.remove_first(); }
-    /// Whether this token is the last one: all layers have been through.
-    bool is_last(TokenPtr token) const { return token->slice_index == last_; }
+    /// So many more tokens come after the last layer than push that through: layers may wait in the pipeline for the gap of layers below them.
+    std::size_t delay() const { return static_cast<std::size_t>(std::max(0, settings_.support_gap_layers - 1)); }
     /// How many tokens a pipeline of so many threads needs.
     std::size_t window(std::size_t threads) const { return 4 * threads + static_cast<std::size_t>(settings_.top_layers + settings_.bottom_layers); }
     StageTimes seconds() const;

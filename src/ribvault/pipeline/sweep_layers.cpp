@@ -67,7 +67,7 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
                 token->below_swept = std::make_shared<const LayerMaterial>(token->material);
                 previous = std::make_shared<SweptLayer>(SweptLayer{
                     std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), bound, supports.blocked, supports.braces, {}, nullptr, {}, {}});
-            } else if (front.is_last(token) && previous) {
+            } else if (previous) {
                 for (auto [e, end] = edges(previous->forest); e != end; ++e) previous->forest[*e].first_layer = true;
                 token->swept = std::move(previous);
                 token->swept->over_gap = overhung.over(token->swept->material);
@@ -98,13 +98,25 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
         }
         return found;
     };
+    // A layer is printed once it is known where supports may stand under the gap below it.
+    struct Waiting {
+        std::shared_ptr<SweptLayer> layer;
+        std::shared_ptr<const LayerMaterial> below;
+    };
+    std::deque<Waiting> waiting;
     const auto hold = [&](TokenPtr token) {
-        if (!token->swept) return token;
+        const std::shared_ptr<const LayerMaterial> newest = token->layer >= 0 ? token->below_swept : nullptr;
+        if (token->swept) waiting.push_back({std::move(token->swept), std::move(token->below_swept)});
+        if (waiting.empty() || (newest && waiting.size() <= front.delay())) return token;
+        token->swept = std::move(waiting.front().layer), token->below_swept = std::move(waiting.front().below);
+        waiting.pop_front();
         holding.measure([&] {
             const LayerMaterial& material = token->swept->material;
+            const bool below_known = settings.support_gap_layers > 0 && newest && newest->outside->walls;
             const PrintOverGap* over_gap = settings.support_gap_layers > 0 ? find_print_over_gap(*token->swept) : nullptr;
             append_wide_walls(token->swept->forest, material.cavity->region, settings, *material.shell);
-            token->swept->held = hold_print(std::move(*material.shell), token->swept->forest, printed_above.get(), settings, material.outside.get(), over_gap);
+            token->swept->held = hold_print(std::move(*material.shell), token->swept->forest, printed_above.get(), settings, material.outside.get(), over_gap,
+                                            below_known ? &*newest->outside->walls : nullptr);
             token->swept->printed_above = std::move(printed_above);
             printed_above = token->swept->held.printed;
             if (settings.stands_off()) {

@@ -38,8 +38,9 @@ SupportForest without_dots(const SupportForest& forest) {
 
 class Holder {
 public:
-    Holder(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Cavity* beside, const PrintOverGap* over_gap, const Settings& settings)
-        : shell_(std::move(shell)), forest_(settings.gaps == Gaps::proved ? without_dots(forest) : forest), above_(above), over_gap_(over_gap), settings_(settings), beside_(beside) {
+    Holder(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Cavity* beside, const PrintOverGap* over_gap, const Region* walls_below_gap,
+           const Settings& settings)
+        : shell_(std::move(shell)), forest_(settings.gaps == Gaps::proved ? without_dots(forest) : forest), above_(above), over_gap_(over_gap), settings_(settings), beside_(beside), walls_below_gap_(walls_below_gap) {
         // What stands on nothing but supports is printed as it is proved.
         for (auto [e, end] = edges(forest_); e != end; ++e)
             if (settings.gaps == Gaps::none || (settings.bed_only && forest_[source(*e, forest_)].outside)) forest_[*e].to_junction = true;
@@ -271,7 +272,7 @@ private:
             TrackKind kind = TrackKind::support;
             if ((outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) && may_stand_outside(s)) {
                 kind = TrackKind::external_support;
-            } else if (beside_ && (patch_object(hanging, settings_.reach_of_object()) || patch_beside_gap(hanging))) {
+            } else if (beside_ && patch_at_gap(hanging)) {
                 continue;
             } else if (outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) {
                 const Point middle{(hanging.a.x + hanging.b.x) / 2, (hanging.a.y + hanging.b.y) / 2};
@@ -357,7 +358,6 @@ private:
     /// Within a removal gap patches are the object's: where its slice is too thin to be printed, they are printed, in pieces short
     /// enough to follow its outline. Says no when the stretch is not over such a place.
     bool patch_object(const Segment& hanging, Unit reach) {
-        if (!beside_->walls) return false;
         const NearestSegment& near = gap_places().air.edges;
         const PointLocation& air = gap_places().air.location;
         const auto pieces = static_cast<std::size_t>(length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
@@ -384,6 +384,14 @@ private:
         return true;
     }
 
+    /// The object's edge, where it is not printed (but for its corners) and so fails to hold up what it should; else a support where one may stand.
+    bool patch_at_gap(const Segment& hanging) {
+        if (!beside_->walls) return false;
+        const bool printed = edge_is_printed(hanging.a, settings_.nozzle / 4) && edge_is_printed(hanging.b, settings_.nozzle / 4);
+        return (!printed && patch_object(hanging, settings_.reach_of_object())) || patch_beside_gap(hanging) ||
+               (printed && patch_object(hanging, settings_.reach_of_object()));
+    }
+
     /// The allowed place nearest to p, if it can hold up all that a track there would: within ρ.
     std::optional<Point> place_for_wall(Point p) {
         const Place& walls = gap_places().walls;
@@ -399,7 +407,6 @@ private:
 
     /// Where walls must keep off what is right under a stretch: patches at the nearest places where they need not. Says no when those are too far away.
     bool patch_beside_gap(const Segment& hanging) {
-        if (!beside_->walls) return false;
         const auto pieces = static_cast<std::size_t>(4 * length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
         std::vector<Point> at;
         for (std::size_t k = 0; k <= pieces; ++k) {
@@ -440,9 +447,12 @@ private:
                 const Point d = whole.b - whole.a;
                 return whole.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))};
             };
-            // Where the slice is not printed at its edge; the rim of what hangs may be within its reach though the centre line is not.
+            // Where the slice is not printed at its edge; the rim of what hangs may be within its reach though the centre line is not. What only a rounded corner leaves
+            // is the supports' where they can stand.
             for (std::size_t k = 0; k < pieces; ++k) {
-                if (edge_is_printed(at(k)) && edge_is_printed(at(k + 1))) continue;
+                if (edge_is_printed(at(k), 10) && edge_is_printed(at(k + 1), 10)) continue;
+                const Unit corner = settings_.nozzle / 4;
+                if (edge_is_printed(at(k), corner) && edge_is_printed(at(k + 1), corner) && supports_reach_rim(at(k)) && supports_reach_rim(at(k + 1))) continue;
                 if (!patch_object({at(k), at(k + 1)}, settings_.reach_of_object()))
                     patch_object({at(k), at(k + 1)}, settings_.reach_of_object() + settings_.nozzle / 2);
             }
@@ -457,9 +467,25 @@ private:
         for (PrintPart& part : held_.parts) part.judgement.change_below(*held_.printed);
     }
 
-    /// Is the place of the slice that is nearest to p covered by a track, but for what its rounded corners leave? A corner of 90° leaves 0.41 r. What hangs just beyond those
-    /// the supports under the gap hold up, or it is found there.
-    bool edge_is_printed(Point p) {
+    /// May a support under the gap come so near to the outer rim of a track over p that it holds it up?
+    bool supports_reach_rim(Point p) {
+        if (!walls_below_gap_) return false;
+        if (!below_gap_) below_gap_.emplace(*walls_below_gap_);
+        if (below_gap_->edges.empty()) return false;
+        const Place& air = gap_places().air;
+        const Segment& edge = air.edges.segments()[air.edges.nearest(p).index];
+        const Point foot = nearest_point(p, edge);
+        const bool outside = air.location.locate(p) == Side::inside;
+        Point way{edge.a.y - edge.b.y, edge.b.x - edge.a.x};  // to the left of the edge, where air is
+        if ((foot == edge.a || foot == edge.b) && length(p - foot) > 100) way = outside ? p - foot : foot - p;
+        const double l = length(way), t = l > 0 ? static_cast<double>(settings_.nozzle / 2) / l : 0;
+        const Point rim = p + Point{round_to_lattice(t * static_cast<double>(way.x)), round_to_lattice(t * static_cast<double>(way.y))};
+        return below_gap_->location.locate(rim) == Side::inside ||
+               compare_distance(rim, below_gap_->edges.segments()[below_gap_->edges.nearest(rim).index], settings_.support_radius - 4 * settings_.slack) <= 0;
+    }
+
+    /// Is the place of the slice that is nearest to p within half a width and `beyond` of a track's centre line? (A corner of 90° is 0.41 r beyond.)
+    bool edge_is_printed(Point p, Unit beyond) {
         const Place& air = gap_places().air;
         const Point foot = air.location.locate(p) == Side::inside ? nearest_point(p, air.edges.segments()[air.edges.nearest(p).index]) : p;
         Box box;
@@ -469,7 +495,7 @@ private:
         tracks_->segments().visit(box, [&](std::uint32_t k) {
             const PlanTracks::Place place = tracks_->place(k);
             const Unit width = without_patches_.tracks[place.track].paths[place.path].width;
-            printed = printed || compare_distance(foot, tracks_->segments().segments()[k], width / 2 + settings_.nozzle / 4) <= 0;
+            printed = printed || compare_distance(foot, tracks_->segments().segments()[k], width / 2 + beyond) <= 0;
         });
         return printed;
     }
@@ -496,7 +522,9 @@ private:
     const Settings& settings_;
     HeldLayer held_;
     const Cavity* beside_;
+    const Region* walls_below_gap_;
     std::optional<GapPlaces> gap_places_;
+    std::optional<Place> below_gap_;  ///< of walls_below_gap_
     LayerPlan without_patches_;         ///< once there are patches
     std::optional<PlanTracks> tracks_;  ///< of it
     std::vector<Patch> patches_;
@@ -506,8 +534,8 @@ private:
 }  // namespace
 
 HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings, const Cavity* outside,
-                     const PrintOverGap* over_gap) {
-    return Holder(std::move(shell), forest, above, outside, over_gap, settings).run();
+                     const PrintOverGap* over_gap, const Region* walls_below_gap) {
+    return Holder(std::move(shell), forest, above, outside, over_gap, walls_below_gap, settings).run();
 }
 
 }  // namespace ribvault

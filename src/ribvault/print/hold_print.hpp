@@ -54,8 +54,9 @@ struct HeldLayer {
 ///
 /// With external supports (settings.outside()) all of `above` counts, inside the outline or not, and patches may lie
 /// outside it, where `outside` (slice/outside.hpp) lets walls stand. Where they stand on the bed alone, or leave a gap of layers, external supports are judged
-/// over what may hold them up; with a gap, what hangs over `over_gap` counts in place of what hangs over this layer.
+/// over what may hold them up; with a gap, what hangs over `over_gap` counts in place of what hangs over this layer. `walls_below_gap`: where supports may stand that hold up
+/// through the gap what hangs over this layer (nullptr: not known): what they can reach needs no patches here.
 HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings,
-                     const Cavity* outside = nullptr, const PrintOverGap* over_gap = nullptr);
+                     const Cavity* outside = nullptr, const PrintOverGap* over_gap = nullptr, const Region* walls_below_gap = nullptr);
 
 }  // namespace ribvault

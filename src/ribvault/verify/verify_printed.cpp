@@ -1,9 +1,12 @@
 #include "ribvault/verify/verify_printed.hpp"
 
 #include <CGAL/FPU.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "ribvault/error.hpp"
 #include "ribvault/verify/lane_cover.hpp"
@@ -26,13 +29,21 @@ void check(const PrintedLayer& upper, const PrintedLayer& lower, const Rational&
                                                   " has no positive width, so it is no material");
 }
 
-/// Decides one track after the other.
+/// What judging a run of tracks has found, but for what is kept by track.
+struct Found {
+    bool centre_lines_supported = true, supported = true;
+    std::vector<UnsupportedPiece> pieces;
+    std::vector<OpenPart> open;  ///< what violates (2)
+    StageCounts stages;
+};
+
+/// Decides one track after the other. Of `verdict` only what is kept by track is written: several judges may decide different tracks at once.
 class Judge {
 public:
     Judge(const PrintedPair& pair, const PrintedOptions& options, PrintedVerdict& verdict)
         : pair_(pair), options_(options), verdict_(verdict) {}
     void judge(int track);
-    std::vector<OpenPart> open;  ///< what violates (2)
+    Found found;
 
 private:
     bool follows_one();
@@ -74,7 +85,7 @@ bool Judge::follows_one() {
         if (reach < 0 || compare_distance(rational(exact.a), pair_.lower[i], reach) > 0 ||
             compare_distance(rational(exact.b), pair_.lower[i], reach) > 0)
             continue;
-        ++verdict_.stages.rational;
+        ++found.stages.rational;
         return true;
     }
     return false;
@@ -110,7 +121,7 @@ void Judge::report_gap(const CentreGap& gap) {
     const Farthest far = farthest_on_line(t, piece.from_mm, std::min(piece.to_mm, t.length), pair_.lower_tracks());
     piece.distance_lo = std::max(far.lo, pair_.rho_approx), piece.distance_hi = std::max(far.hi, piece.distance_lo);
     piece.worst = {far.x, far.y};
-    verdict_.pieces.push_back(piece);
+    found.pieces.push_back(piece);
 }
 
 // The gaps in parts of a few widths, each with a stretch of the centre line that is known to be open.
@@ -138,7 +149,7 @@ std::vector<OpenPart> Judge::parts_of(const std::vector<Stretch>& gaps, const st
 bool Judge::uncovered(OpenPart& part) {
     const auto local = std::make_shared<LocalProblem>();
     build_part_problem(pair_, part, *local);
-    part.found = find_uncovered(local->problem, {&local->window, 1}, verdict_.stages);
+    part.found = find_uncovered(local->problem, {&local->window, 1}, found.stages);
     if (part.found) part.local = local;
     return part.found.has_value();
 }
@@ -162,7 +173,7 @@ bool Judge::violates(std::vector<OpenPart> parts, bool known) {
             part.piece = std::move(piece);
             if (!uncovered(part)) continue;
         }
-        open.push_back(std::move(part));
+        found.open.push_back(std::move(part));
     }
     return true;
 }
@@ -173,7 +184,7 @@ void Judge::judge(int index) {
     // A stadium below that contains the track's contains its middle.
     const auto follows = [&](int k) { return excess(pair_, t, pair_.below[static_cast<std::size_t>(k)]) < -pair_.margin; };
     if (pair_.grid.any_at((t.ax + t.bx) / 2, (t.ay + t.by) / 2, follows)) {
-        ++verdict_.stages.interval;
+        ++found.stages.interval;
         return;
     }
     pair_.grid.near(t, t.half + 2 * window_slack(pair_.margin), near_);
@@ -188,16 +199,16 @@ void Judge::judge(int index) {
     std::vector<Stretch> gaps{{-t.half - slack, t.length + t.half + slack}};
     if (frame.wide_enough) gaps = lane_gaps(frame, t.half, seen_, pair_.margin);
     if (gaps.empty()) {
-        ++verdict_.stages.interval;
+        ++found.stages.interval;
         return;
     }
     const Below below{pair_.lower, pair_.below, pair_.radii, near_, seen_};
-    const std::vector<CentreGap> centre = centre_gaps(pair_.upper[track_], t, below, pair_.margin, exact_ends(), verdict_.stages);
-    if (!centre.empty()) verdict_.centre_lines_supported = false;
+    const std::vector<CentreGap> centre = centre_gaps(pair_.upper[track_], t, below, pair_.margin, exact_ends(), found.stages);
+    if (!centre.empty()) found.centre_lines_supported = false;
     if (options_.lengths)
         for (const CentreGap& gap : centre) report_gap(gap);
     if (!options_.areas) {
-        if (!centre.empty()) verdict_.supported = false, verdict_.track_supported[track_] = 0;
+        if (!centre.empty()) found.supported = false, verdict_.track_supported[track_] = 0;
         return;
     }
     std::vector<OpenPart> parts = parts_of(gaps, centre);
@@ -208,19 +219,12 @@ void Judge::judge(int index) {
                 std::any_of(parts.begin(), parts.end(), [&](const OpenPart& p) { return p.gap.has_value(); });
             if (!known) parts.push_back({index, {c.from_lo - slack, c.to_hi + slack}, c, {}, {}});
         }
-    if (violates(std::move(parts), !centre.empty())) verdict_.supported = false, verdict_.track_supported[track_] = 0;
+    if (violates(std::move(parts), !centre.empty())) found.supported = false, verdict_.track_supported[track_] = 0;
 }
 
-}  // namespace
+constexpr std::size_t tracks_of_a_run = 256;  ///< judged by one thread
 
-PrintedVerdict verify_printed(const PrintedLayer& upper, const PrintedLayer& lower, const Rational& rho,
-                              const PrintedOptions& options) {
-    check(upper, lower, rho, options);
-    const CGAL::Protect_FPU_rounding<true> upward;
-    PrintedVerdict verdict;
-    verdict.unsupported_length.assign(upper.tracks.size(), {0, 0});
-    verdict.track_supported.assign(upper.tracks.size(), 1);
-    PrintedPair pair;
+void prepare_pair(const PrintedLayer& upper, const PrintedLayer& lower, const Rational& rho, PrintedPair& pair) {
     pair.upper = upper.tracks, pair.lower = lower.tracks;
     pair.above = prepare(upper.tracks), pair.below = prepare(lower.tracks);
     pair.rho = rho, pair.rho_approx = rho.get_d();
@@ -229,13 +233,50 @@ PrintedVerdict verify_printed(const PrintedLayer& upper, const PrintedLayer& low
     for (const PrintedTrack& t : lower.tracks) pair.radii.push_back(half_plus(t.width, reach));
     pair.margin = margin_of(largest_coordinate(pair.above, pair.below, pair.rho_approx));
     pair.grid = TrackGrid(pair.below, pair.rho_approx + 4 * pair.margin);
-    Judge judge(pair, options, verdict);
-    for (std::size_t i = 0; i < upper.tracks.size(); ++i)
-        if (options.judged.empty() || options.judged[i]) judge.judge(static_cast<int>(i));
+}
+
+}  // namespace
+
+PrintedVerdict verify_printed(const PrintedLayer& upper, const PrintedLayer& lower, const Rational& rho,
+                              const PrintedOptions& options) {
+    check(upper, lower, rho, options);
+    PrintedVerdict verdict;
+    verdict.unsupported_length.assign(upper.tracks.size(), {0, 0});
+    verdict.track_supported.assign(upper.tracks.size(), 1);
+    PrintedPair pair;
+    {
+        const CGAL::Protect_FPU_rounding<true> upward;
+        prepare_pair(upper, lower, rho, pair);
+    }
+    const std::size_t runs = upper.tracks.size() / tracks_of_a_run + 1;
+    std::vector<Found> found(runs);
+    const auto judge_run = [&](std::size_t run) {
+        const CGAL::Protect_FPU_rounding<true> upward;
+        Judge judge(pair, options, verdict);
+        for (std::size_t i = run * tracks_of_a_run; i < std::min((run + 1) * tracks_of_a_run, upper.tracks.size()); ++i)
+            if (options.judged.empty() || options.judged[i]) judge.judge(static_cast<int>(i));
+        found[run] = std::move(judge.found);
+    };
+    // Whoever waits here takes on nothing else meanwhile: the caller may hold what others wait for.
+    if (runs == 1)
+        judge_run(0);
+    else
+        oneapi::tbb::this_task_arena::isolate([&] { oneapi::tbb::parallel_for(std::size_t{0}, runs, judge_run); });
+    std::vector<OpenPart> open;
+    for (Found& f : found) {
+        verdict.centre_lines_supported = verdict.centre_lines_supported && f.centre_lines_supported;
+        verdict.supported = verdict.supported && f.supported;
+        verdict.stages += f.stages;
+        std::move(f.pieces.begin(), f.pieces.end(), std::back_inserter(verdict.pieces));
+        std::move(f.open.begin(), f.open.end(), std::back_inserter(open));
+    }
     if (options.stretches)
-        for (const OpenPart& part : judge.open)
+        for (const OpenPart& part : open)
             verdict.stretches.push_back({static_cast<std::size_t>(part.track), part.stretch.lo, part.stretch.hi});
-    if (options.regions && options.areas) verdict.regions = describe_regions(pair, judge.open, options);
+    if (options.regions && options.areas) {
+        const CGAL::Protect_FPU_rounding<true> upward;
+        verdict.regions = describe_regions(pair, open, options);
+    }
     return verdict;
 }
 
