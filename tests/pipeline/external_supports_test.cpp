@@ -24,6 +24,24 @@ namespace {
 std::vector<Triangle> table_with_hook() {
     return box({0, 0, 0}, {3, 3, 8}) + box({-4, -4, 8}, {7, 7, 9}) + box({5, 5, 4}, {6, 6, 8}) + box({-3, 5, 4}, {6, 6, 5});
 }
+/// A column of n sides with radius 2 up to z = 3 that widens to 10 at z = 5.5, twisted by an angle on the way.
+std::vector<Triangle> funnel(int n, double twist) {
+    const auto corner = [&](int ring, int k) {
+        static constexpr double radii[] = {2, 2, 10, 10}, heights[] = {0, 3, 5.5, 6.5};
+        const double angle = 2 * M_PI * (k % n) / n + (ring > 1 ? twist : 0);
+        return Corner{radii[ring] * std::cos(angle), radii[ring] * std::sin(angle), heights[ring]};
+    };
+    std::vector<Triangle> triangles;
+    for (int k = 0; k < n; ++k) {
+        for (int ring = 0; ring < 3; ++ring) {
+            triangles.push_back({corner(ring, k), corner(ring, k + 1), corner(ring + 1, k + 1)});
+            triangles.push_back({corner(ring, k), corner(ring + 1, k + 1), corner(ring + 1, k)});
+        }
+        triangles.push_back({Corner{0, 0, 0}, corner(0, k + 1), corner(0, k)});
+        triangles.push_back({Corner{0, 0, 6.5}, corner(3, k), corner(3, k + 1)});
+    }
+    return triangles;
+}
 /// Random blocks on and over each other, all above a foot.
 std::vector<Triangle> random_blocks(std::mt19937_64& random) {
     const auto between = [&](double lo, double hi) { return std::round(std::uniform_real_distribution<double>(lo, hi)(random) * 64) / 64; };
@@ -256,6 +274,33 @@ TEST_CASE("a gap of layers: nothing stands right under the object, and what hang
         CHECK(report.verdict.proved);
         CHECK(report.verdict.print_proved);
     }
+}
+
+TEST_CASE("what the rounded corners of a printed slice leave is the supports' under the gap: the perimeter is not printed twice") {
+    for (const auto& [sides, twist] : {std::pair(12, 0.0), {12, 0.3}, {24, 0.2}})
+        for (const int gap : {1, 3}) {
+            Settings settings = with(Support::external, 20000);
+            settings.support_gap_layers = gap;
+            INFO(sides << " sides, " << gap << " layers");
+            const RunReport report = run(funnel(sides, twist), settings);
+            CHECK(report.verdict.proved);
+            CHECK(report.verdict.print_proved);
+            CHECK(report.totals.external_support_volume_mm3 > 100);
+            CHECK(report.totals.patches < 40);  // hundreds where corners get their own
+            CHECK(report.verdict.layers_with_patches_in_gap.empty());
+        }
+}
+
+TEST_CASE("a blade too thin for a track is printed where it holds something up, and where that leaves less than the gap is told") {
+    const auto table_on_blade = [](double width) { return box({-4, -4, 0}, {4, 4, 1}) + box({-width / 2, -3, 1}, {width / 2, 3, 5}) + box({-4, -4, 5}, {4, 4, 6}); };
+    const RunReport thin = run(table_on_blade(0.1), with(Support::external, 30000)), wide = run(table_on_blade(0.3), with(Support::external, 30000));
+    for (const RunReport* report : {&thin, &wide}) {
+        CHECK(report->verdict.proved);
+        CHECK(report->verdict.print_proved);
+    }
+    CHECK(thin.verdict.layers_with_patches_in_gap.size() == 20);  // all of its height
+    CHECK(thin.layers[10].patch_in_gap);
+    CHECK(wide.verdict.layers_with_patches_in_gap.empty());
 }
 
 TEST_CASE("random blocks on supports from the bed, and through gaps of layers, are proved or say what is not") {
