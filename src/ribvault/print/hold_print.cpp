@@ -11,6 +11,7 @@
 #include "ribvault/print/place_dot.hpp"
 #include "ribvault/print/printed_tracks.hpp"
 #include "ribvault/print/support_paths.hpp"
+#include "ribvault/vault/cavity_boundary.hpp"
 
 namespace ribvault {
 namespace {
@@ -272,7 +273,7 @@ private:
             TrackKind kind = TrackKind::support;
             if ((outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) && may_stand_outside(s)) {
                 kind = TrackKind::external_support;
-            } else if (beside_ && patch_at_gap(hanging)) {
+            } else if (beside_ && patch_at_gap(hanging, round >= rounds / 2)) {
                 continue;
             } else if (outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) {
                 const Point middle{(hanging.a.x + hanging.b.x) / 2, (hanging.a.y + hanging.b.y) / 2};
@@ -334,6 +335,12 @@ private:
         return air.location.locate(p) != Side::inside && compare_distance(p, air.edges.segments()[air.edges.nearest(p).index], depth) >= 0;
     }
 
+    /// The point of the slice that is nearest to p.
+    Point nearest_of_slice(Point p) {
+        const Place& air = gap_places().air;
+        return air.location.locate(p) == Side::inside ? nearest_point(p, air.edges.segments()[air.edges.nearest(p).index]) : p;
+    }
+
     /// The place for a patch of the object that holds up what is over p: as near to it as a track can be that does not stand out of the slice. Where the slice has no room for one,
     /// the point of the slice nearest to p, moved inwards as far as needed to keep off external supports; where they are too near on both sides, the place farthest from them.
     Point place_in_object(Point p) {
@@ -343,8 +350,7 @@ private:
             if (is_within(within, flush - within_edge)) return within;
             within = moved_inwards(within, flush);
         }
-        const Place& air = gap_places().air;
-        const Point nearest = air.location.locate(p) == Side::inside ? nearest_point(p, air.edges.segments()[air.edges.nearest(p).index]) : p;
+        const Point nearest = nearest_of_slice(p);
         Point best = nearest;
         double most = -1;
         for (const Point place : {nearest, moved_inwards(p, flush / 4), moved_inwards(p, flush / 2), moved_inwards(p, 3 * flush / 4), moved_inwards(p, flush)}) {
@@ -357,7 +363,8 @@ private:
 
     /// Within a removal gap patches are the object's: where its slice is too thin to be printed, they are printed, in pieces short
     /// enough to follow its outline. Says no when the stretch is not over such a place.
-    bool patch_object(const Segment& hanging, Unit reach) {
+    bool patch_object(const Segment& hanging, Unit reach, bool at_edge = false) {
+        if (gap_places().air.edges.empty()) return false;
         const NearestSegment& near = gap_places().air.edges;
         const PointLocation& air = gap_places().air.location;
         const auto pieces = static_cast<std::size_t>(length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
@@ -367,7 +374,7 @@ private:
             const double t = static_cast<double>(k) / static_cast<double>(pieces);
             const Point d = hanging.b - hanging.a, p = hanging.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))};
             if (air.locate(p) == Side::inside && compare_distance(p, near.segments()[near.nearest(p).index], reach) > 0) return patches_.resize(before), false;
-            at.push_back(place_in_object(p));
+            at.push_back(at_edge ? nearest_of_slice(p) : place_in_object(p));
             if (k == 0) continue;
             // Feet on two sides of a notch: the way between them would lie in the air.
             const Point middle{(at[k - 1].x + at[k].x) / 2, (at[k - 1].y + at[k].y) / 2};
@@ -384,12 +391,13 @@ private:
         return true;
     }
 
-    /// The object's edge, where it is not printed (but for its corners) and so fails to hold up what it should; else a support where one may stand.
-    bool patch_at_gap(const Segment& hanging) {
+    /// The object's edge, where it is not printed (but for its corners) and so fails to hold up what it should; else a support where one may stand. `again`: that has not
+    /// helped, and the object is printed at its very edge, though that stands into the gap.
+    bool patch_at_gap(const Segment& hanging, bool again) {
         if (!beside_->walls) return false;
-        const bool printed = edge_is_printed(hanging.a, settings_.nozzle / 4) && edge_is_printed(hanging.b, settings_.nozzle / 4);
-        return (!printed && patch_object(hanging, settings_.reach_of_object())) || patch_beside_gap(hanging) ||
-               (printed && patch_object(hanging, settings_.reach_of_object()));
+        const bool object_first = again || !edge_is_printed(hanging.a, settings_.nozzle / 4) || !edge_is_printed(hanging.b, settings_.nozzle / 4);
+        return (object_first && patch_object(hanging, settings_.reach_of_object(), again)) || patch_beside_gap(hanging) ||
+               (!object_first && patch_object(hanging, settings_.reach_of_object()));
     }
 
     /// The allowed place nearest to p, if it can hold up all that a track there would: within ρ.
@@ -405,7 +413,7 @@ private:
         return std::nullopt;
     }
 
-    /// Where walls must keep off what is right under a stretch: patches at the nearest places where they need not. Says no when those are too far away.
+    /// Where walls must keep off what is right under a stretch: patches at the nearest places where they need not, as far as these are near enough. Says no when none is.
     bool patch_beside_gap(const Segment& hanging) {
         const auto pieces = static_cast<std::size_t>(4 * length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
         std::vector<Point> at;
@@ -413,9 +421,10 @@ private:
             const double t = static_cast<double>(k) / static_cast<double>(pieces);
             const Point d = hanging.b - hanging.a;
             const std::optional<Point> place = place_for_wall(hanging.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))});
-            if (!place) return false;
+            if (!place) continue;
             if (at.empty() || at.back() != *place) at.push_back(*place);
         }
+        if (at.empty()) return false;
         const std::size_t before = patches_.size();
         for (std::size_t k = 1; k < at.size(); ++k)
             if (may_stand_outside({at[k - 1], at[k]})) patches_.push_back({{at[k - 1], at[k]}, TrackKind::external_support});
@@ -450,10 +459,12 @@ private:
             // Where the slice is not printed at its edge; the rim of what hangs may be within its reach though the centre line is not. What only a rounded corner leaves
             // is the supports' where they can stand.
             for (std::size_t k = 0; k < pieces; ++k) {
-                if (edge_is_printed(at(k), 10) && edge_is_printed(at(k + 1), 10)) continue;
-                const Unit corner = settings_.nozzle / 4;
-                if (edge_is_printed(at(k), corner) && edge_is_printed(at(k + 1), corner) && supports_reach_rim(at(k)) && supports_reach_rim(at(k + 1))) continue;
-                if (!patch_object({at(k), at(k + 1)}, settings_.reach_of_object()))
+                const auto everywhere = [&](const auto& is) {
+                    return is(at(k)) && is({(at(k).x + at(k + 1).x) / 2, (at(k).y + at(k + 1).y) / 2}) && is(at(k + 1));
+                };
+                const bool printed = everywhere([&](Point p) { return edge_is_printed(p, settings_.nozzle / 4); });
+                if (printed && everywhere([&](Point p) { return supports_reach_rim(p); })) continue;
+                if (!patch_object({at(k), at(k + 1)}, settings_.reach_of_object(), printed))
                     patch_object({at(k), at(k + 1)}, settings_.reach_of_object() + settings_.nozzle / 2);
             }
         }
@@ -487,7 +498,8 @@ private:
     /// Is the place of the slice that is nearest to p within half a width and `beyond` of a track's centre line? (A corner of 90° is 0.41 r beyond.)
     bool edge_is_printed(Point p, Unit beyond) {
         const Place& air = gap_places().air;
-        const Point foot = air.location.locate(p) == Side::inside ? nearest_point(p, air.edges.segments()[air.edges.nearest(p).index]) : p;
+        if (air.edges.empty()) return false;
+        const Point foot = nearest_of_slice(p);
         Box box;
         box.add(foot);
         box.grow(2 * settings_.nozzle);
@@ -502,16 +514,17 @@ private:
 
     /// A region with what it takes to look things up in it.
     struct Place {
-        explicit Place(const Region& region) : edges(edges_of(region)), location(edges_of(region), units_per_mm) {}
+        explicit Place(const Region& region) : Place(region, edges_of(region)) {}
+        Place(const Region& region, std::vector<Segment> edges) : edges(std::move(edges)), location(edges_of(region), units_per_mm) {}
         NearestSegment edges;
         PointLocation location;
     };
-    /// With a removal gap: where walls may stand, and what lies outside the slice. Made when first asked for.
+    /// With a removal gap: where walls may stand, and what lies outside the slice, whose edges are the slice's. Made when first asked for.
     struct GapPlaces {
         Place walls, air;
     };
     const GapPlaces& gap_places() {
-        if (!gap_places_) gap_places_.emplace(GapPlaces{Place(*beside_->walls), Place(beside_->region)});
+        if (!gap_places_) gap_places_.emplace(GapPlaces{Place(*beside_->walls), Place(beside_->region, edges_off_frame(beside_->region))});
         return *gap_places_;
     }
 

@@ -1,7 +1,6 @@
 #include "ribvault/vault/cavity_boundary.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 namespace ribvault {
 
@@ -13,16 +12,19 @@ CavityBoundary prepare_boundary(const Region& cavity) {
     return boundary;
 }
 
+std::vector<Segment> edges_off_frame(const Region& region) {
+    std::vector<Segment> edges = edges_of(region);
+    const Box frame = bounding_box(region);
+    std::erase_if(edges, [&](const Segment& e) {
+        return (e.a.x == e.b.x && (e.a.x == frame.lo.x || e.a.x == frame.hi.x)) || (e.a.y == e.b.y && (e.a.y == frame.lo.y || e.a.y == frame.hi.y));
+    });
+    return edges;
+}
+
 CavityBoundary prepare_boundary(const Cavity& cavity) {
     if (!cavity.outside) return prepare_boundary(cavity.region);
     const Region& region = cavity.walls ? *cavity.walls : cavity.region;
-    std::vector<Segment> all = edges_of(region), edges;
-    const Box frame = bounding_box(region);
-    const auto on_frame = [&](const Segment& e) {
-        return (e.a.x == e.b.x && (e.a.x == frame.lo.x || e.a.x == frame.hi.x)) || (e.a.y == e.b.y && (e.a.y == frame.lo.y || e.a.y == frame.hi.y));
-    };
-    std::remove_copy_if(all.begin(), all.end(), std::back_inserter(edges), on_frame);
-    return {NearestSegment(std::move(edges)), PointLocation(std::move(all), units_per_mm / 2), true, !cavity.walls, cavity.layer};
+    return {NearestSegment(edges_off_frame(region)), PointLocation(edges_of(region), units_per_mm / 2), true, !cavity.walls, cavity.layer};
 }
 
 Point place_root(Point p, const CavityBoundary& boundary) {

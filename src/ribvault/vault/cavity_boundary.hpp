@@ -19,6 +19,9 @@ struct CavityBoundary {
 CavityBoundary prepare_boundary(const Region& cavity);
 CavityBoundary prepare_boundary(const Cavity& cavity);
 
+/// The edges of a region outside a slice but for those of its frame, the box around it.
+std::vector<Segment> edges_off_frame(const Region& region);
+
 /// How far (lattice units) a root may lie from the boundary of C_i.
 inline constexpr Unit root_tolerance = 3;
 
