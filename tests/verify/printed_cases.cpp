@@ -148,6 +148,22 @@ TEST_CASE("printed: coincident, antiparallel and overlapping segments count once
     CHECK(half.regions.size() == 1);
 }
 
+TEST_CASE("printed: of many tracks each is judged, wherever it stands among them") {
+    std::vector<PrintedTrack> rows;
+    for (int k = 0; k < 700; ++k) rows.push_back(track(0, k, 1, k, w));
+    for (const std::size_t missing : {0, 255, 256, 511, 512, 699}) {
+        std::vector<PrintedTrack> below = rows;
+        below.erase(below.begin() + static_cast<std::ptrdiff_t>(missing));
+        const PrintedVerdict v = verify(printed(rows), printed(below));
+        CHECK(!v.supported);
+        for (std::size_t k = 0; k < rows.size(); ++k) CHECK((v.track_supported[k] != 0) == (k != missing));
+        REQUIRE(v.pieces.size() == 1);
+        CHECK(v.pieces[0].track == missing);
+        REQUIRE(v.regions.size() == 1);
+        CHECK(v.regions[0].tracks == std::vector<std::size_t>{missing});
+    }
+}
+
 TEST_CASE("printed: tracks of length zero are dots") {
     const PrintedLayer below = printed({dot(0, 0, w)});
     supported(verify(below, below), intervals);
