@@ -64,15 +64,25 @@ TEST_CASE("beside a perimeter a short track, far from everything a dot") {
     CHECK(plan.tracks[3].paths[0].points == Points{{mm, mm}, {mm, 150000}});
 }
 
-TEST_CASE("a dot near another one is joined to that") {
+TEST_CASE("what leads to a dot goes on to the next one") {
     LayerPlan plan = plan_of({track(TrackKind::outer_perimeter, {{0, 0}, {5 * mm, 0}, {5 * mm, 5 * mm}, {0, 5 * mm}}, Entry::fixed, true)});
     CHECK(lay(plan, {dot(2 * mm, 2 * mm), dot(2 * mm, 2 * mm + 10000), dot(2 * mm, 2 * mm), dot(2 * mm, 25000), dot(2 * mm, 50000)}) == 10000 + 25000 + 25000);
-    REQUIRE(plan.tracks.size() == 5);
-    CHECK(plan.tracks[1].paths[0].points == Points{{2 * mm, 2 * mm}});
-    CHECK(plan.tracks[2].paths[0].points == Points{{2 * mm, 2 * mm}, {2 * mm, 2 * mm + 10000}});
-    CHECK(plan.tracks[3].paths[0].points == Points{{2 * mm, 0}, {2 * mm, 25000}});
-    CHECK(plan.tracks[4].paths[0].points == Points{{2 * mm, 25000}, {2 * mm, 50000}});
-    CHECK(std::count_if(plan.tracks.begin(), plan.tracks.end(), [](const PlannedTrack& t) { return t.paths[0].on_track; }) == 3);
+    REQUIRE(plan.tracks.size() == 3);
+    CHECK(plan.tracks[1].paths[0].points == Points{{2 * mm, 2 * mm}, {2 * mm, 2 * mm + 10000}});
+    CHECK_FALSE(plan.tracks[1].paths[0].on_track);
+    CHECK(plan.tracks[2].paths[0].points == Points{{2 * mm, 0}, {2 * mm, 25000}, {2 * mm, 50000}});
+    CHECK(plan.tracks[2].paths[0].on_track);
+}
+
+TEST_CASE("a track prolonged to a dot, or a spur, goes on to the next one; from the middle of a way a track of its own leads there") {
+    LayerPlan plan = plan_of({track(TrackKind::support, {{0, 0}, {mm, 0}})});
+    CHECK(lay(plan, {dot(mm + 10000, 0), dot(mm + 20000, 3000), dot(-10000, 0), dot(-20000, 0), dot(50000, 10000), dot(50000, 13000), dot(mm + 5000, 5000)}) ==
+          round_to_lattice(10000 + std::hypot(10000, 3000) + 20000 + 2 * 13000 + 5000));
+    REQUIRE(plan.tracks.size() == 2);
+    CHECK(plan.tracks[0].paths[0].points == Points{{-20000, 0}, {-10000, 0}, {0, 0}, {50000, 0}, {50000, 10000}, {50000, 13000}, {50000, 10000}, {50000, 0},
+                                                   {mm, 0}, {mm + 10000, 0}, {mm + 20000, 3000}});
+    CHECK(plan.tracks[1].paths[0].points == Points{{mm + 5000, 0}, {mm + 5000, 5000}});
+    CHECK(plan.tracks[1].paths[0].on_track);
 }
 
 TEST_CASE("a dot on a track needs nothing, one just beside it a step; on a narrower strip it stays a dot") {

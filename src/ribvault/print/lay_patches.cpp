@@ -31,41 +31,48 @@ public:
         for (const Patch& patch : patches)
             if (patch.segment.a != patch.segment.b || !join(patch)) lay(patch.kind, patch.segment);
         insert_spurs();
+        prolong_tracks();
+        for (const Way& way : ways_)
+            if (way.leads == Leads::alone) plan_.tracks.push_back({{{way.kind, width_, false, way.points, way.on_track}}, Entry::either_end, no_stop});
         return round_to_lattice(added_);
     }
 
 private:
+    enum class Leads { alone, from_end, from_beginning, aside };
+    /// From a place on a track, where it leads from one, to one dot after the other.
+    struct Way {
+        TrackKind kind;
+        std::vector<Point> points;
+        Leads leads = Leads::alone;
+        bool on_track = false;  ///< one that is alone begins on another's centre line
+        std::size_t track = no_stop;
+    };
     struct Spur {
         double along;  ///< from the beginning of the step
-        Point from, to;
+        std::size_t way;
     };
     using Step = std::tuple<std::size_t, std::size_t, std::size_t>;
 
+    void add(Way way) {
+        added_ += (way.leads == Leads::aside ? 2 : 1) * (way.points.size() > 1 ? length(way.points[1] - way.points[0]) : 0);
+        ways_.push_back(std::move(way));
+    }
     void lay(TrackKind kind, const Segment& s, bool on_track = false) {
-        laid_.push_back({s, kind});
-        ToolPath path{kind, width_, false, {s.a}, on_track};
-        if (!is_tiny_step(s.a, s.b)) path.points.push_back(s.b), added_ += length(s);
-        plan_.tracks.push_back({{std::move(path)}, Entry::either_end, no_stop});
+        add({kind, is_tiny_step(s.a, s.b) ? std::vector<Point>{s.a} : std::vector<Point>{s.a, s.b}, Leads::alone, on_track});
     }
 
     bool join(const Patch& patch) {
         Point dot = patch.segment.a;
         if (on_.segments().empty()) return false;
         const NearestSegment::Hit hit = on_.segments().nearest(dot);
-        if (const Patch* near = nearest_laid(patch); near && compare(squared_distance(dot, near->segment), hit.distance) < 0) {
-            const Point from = nearest_point(dot, near->segment);
-            if (dot == from) return true;
-            dot = beyond_tiny(from, dot);
-            if (length(dot - from) > dot_ || !is_open(patch.kind, {from, dot})) return false;
-            lay(patch.kind, {from, dot}, true);
-            return true;
-        }
+        Point from;
+        if (Way* way = nearest_way(patch, from); way && compare(SquaredDistance{squared_length(dot - from), 1}, hit.distance) < 0) return lead_on(*way, from, dot);
         const Segment& step = on_.segments().segments()[hit.index];
         const auto [t, p, k] = on_.place(hit.index);
-        PlannedTrack& track = plan_.tracks[t];
+        const PlannedTrack& track = plan_.tracks[t];
         const ToolPath& path = track.paths[p];
         if ((patch.kind == TrackKind::external_support) != (path.kind == TrackKind::external_support)) return false;
-        Point from = nearest_point(dot, step);
+        from = nearest_point(dot, step);
         for (const Point end : {step.a, step.b})
             if (is_tiny_step(from, end)) from = end;
         if (dot == from) return path.width >= width_;
@@ -75,21 +82,34 @@ private:
         if (!path.closed) {
             const bool last = p + 1 == track.paths.size() && k + 2 >= path.points.size() && from == step.b;
             const bool first = p == 0 && k == 0 && from == step.a && track.entry == Entry::either_end;
-            for (const bool at_end : {true, false})
-                if ((at_end ? last : first) && prolonged_.insert({t, at_end}).second) {
-                    prolong(t, at_end, patch.kind, dot);
-                    added_ += way;
-                    laid_.push_back({{from, dot}, patch.kind});
+            for (const Leads leads : {Leads::from_end, Leads::from_beginning})
+                if ((leads == Leads::from_end ? last : first) && prolonged_.insert({t, leads}).second) {
+                    add({patch.kind, {from, dot}, leads, false, t});
                     return true;
                 }
         }
         if (is_support(path.kind) && !path.closed && path.width == width_ && path.points.size() > 1 && 2 * way <= dot_) {
-            spurs_[{t, p, k}].push_back({length(from - step.a), from, dot});
-            added_ += 2 * way;
-            laid_.push_back({{from, dot}, patch.kind});
+            spurs_[{t, p, k}].push_back({length(from - step.a), ways_.size()});
+            add({patch.kind, {from, dot}, Leads::aside, false, t});
         } else {
             lay(patch.kind, {from, dot}, path.width >= width_);
         }
+        return true;
+    }
+
+    /// A way goes on from its last dot to another one; elsewhere a new one begins on it.
+    bool lead_on(Way& way, Point from, Point dot) {
+        if (is_tiny_step(from, way.points.back())) from = way.points.back();
+        if (dot == from) return true;
+        dot = beyond_tiny(from, dot);
+        const double l = length(dot - from);
+        if (l > dot_ || !is_open(way.kind, {from, dot})) return false;
+        if (from != way.points.back()) {
+            lay(way.kind, {from, dot}, true);
+            return true;
+        }
+        way.points.push_back(dot);
+        added_ += (way.leads == Leads::aside ? 2 : 1) * l;
         return true;
     }
 
@@ -103,29 +123,18 @@ private:
         return from + Point{round_to_lattice(t * static_cast<double>(way.x)), round_to_lattice(t * static_cast<double>(way.y))};
     }
 
-    /// Of the same kind.
-    const Patch* nearest_laid(const Patch& patch) const {
-        const Patch* nearest = nullptr;
+    /// Of the same kind; `at`: its point nearest to the patch.
+    Way* nearest_way(const Patch& patch, Point& at) {
+        Way* nearest = nullptr;
         double least = HUGE_VAL;
-        for (const Patch& laid : laid_) {
-            if (laid.kind != patch.kind) continue;
-            if (const double d = squared_distance(patch.segment.a, laid.segment).value(); d < least) least = d, nearest = &laid;
+        for (Way& way : ways_) {
+            if (way.kind != patch.kind) continue;
+            for (std::size_t k = way.points.size() == 1 ? 0 : 1; k < way.points.size(); ++k) {
+                const Segment s{way.points[k == 0 ? 0 : k - 1], way.points[k]};
+                if (const double d = squared_distance(patch.segment.a, s).value(); d < least) least = d, nearest = &way, at = nearest_point(patch.segment.a, s);
+            }
         }
         return nearest;
-    }
-
-    /// Points before the first one would shift the steps that spurs leave from: they are kept apart until the end.
-    void prolong(std::size_t t, bool at_end, TrackKind kind, Point to) {
-        PlannedTrack& track = plan_.tracks[t];
-        ToolPath& path = at_end ? track.paths.back() : track.paths.front();
-        const Point from = at_end ? path.points.back() : path.points.front();
-        if (path.kind == kind && path.width == width_ && at_end) {
-            path.points.push_back(to);
-        } else if (at_end) {
-            track.paths.push_back({kind, width_, false, {from, to}});
-        } else {
-            before_[t] = {kind, width_, false, {to, from}};
-        }
     }
 
     void insert_spurs() {
@@ -135,26 +144,35 @@ private:
             std::vector<Point>& points = plan_.tracks[t].paths[p].points;
             std::vector<Spur>& spurs = it->second;
             std::sort(spurs.begin(), spurs.end(), [](const Spur& a, const Spur& b) { return a.along < b.along; });
-            std::vector<Point> way{points[k]};
+            std::vector<Point> whole{points[k]};
             const auto go = [&](Point to) {
-                if (way.back() != to) way.push_back(to);
+                if (whole.back() != to) whole.push_back(to);
             };
             for (const Spur& spur : spurs) {
+                std::vector<Point> way = ways_[spur.way].points;
                 // Two that leave close to each other leave at the same place.
-                const Point from = is_tiny_step(way.back(), spur.from) ? way.back() : spur.from;
-                go(from), go(spur.to), go(from);
+                if (is_tiny_step(whole.back(), way.front())) way.front() = whole.back();
+                std::for_each(way.begin(), way.end(), go);
+                std::for_each(way.rbegin(), way.rend(), go);
             }
-            if (way.size() > 1 && way.back() == points[k + 1]) way.pop_back();
+            if (whole.size() > 1 && whole.back() == points[k + 1]) whole.pop_back();
             points.erase(points.begin() + static_cast<std::ptrdiff_t>(k));
-            points.insert(points.begin() + static_cast<std::ptrdiff_t>(k), way.begin(), way.end());
+            points.insert(points.begin() + static_cast<std::ptrdiff_t>(k), whole.begin(), whole.end());
         }
-        for (auto& [t, path] : before_) {
-            PlannedTrack& track = plan_.tracks[t];
-            ToolPath& first = track.paths.front();
-            if (first.kind == path.kind && first.width == path.width)
-                first.points.insert(first.points.begin(), path.points.front());
+    }
+
+    void prolong_tracks() {
+        for (Way& way : ways_) {
+            if (way.leads != Leads::from_end && way.leads != Leads::from_beginning) continue;
+            std::vector<ToolPath>& paths = plan_.tracks[way.track].paths;
+            const bool at_end = way.leads == Leads::from_end;
+            ToolPath& path = at_end ? paths.back() : paths.front();
+            const bool same = path.kind == way.kind && path.width == width_;
+            if (!at_end) std::reverse(way.points.begin(), way.points.end());
+            if (same)
+                path.points.insert(at_end ? path.points.end() : path.points.begin(), way.points.begin() + (at_end ? 1 : 0), way.points.end() - (at_end ? 0 : 1));
             else
-                track.paths.insert(track.paths.begin(), std::move(path));
+                paths.insert(at_end ? paths.end() : paths.begin(), ToolPath{way.kind, width_, false, way.points});
         }
     }
 
@@ -164,10 +182,9 @@ private:
     const std::function<bool(const Segment&)>& open_;
     const double dot_;  ///< length of track that takes as much material as a dot
     double added_ = 0;
-    std::set<std::pair<std::size_t, bool>> prolonged_;  ///< the track; at its end, or its beginning
-    std::vector<Patch> laid_;  ///< what was added so far
+    std::set<std::pair<std::size_t, Leads>> prolonged_;
+    std::vector<Way> ways_;
     std::map<Step, std::vector<Spur>> spurs_;
-    std::map<std::size_t, ToolPath> before_;
 };
 
 }  // namespace
