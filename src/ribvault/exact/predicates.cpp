@@ -3,6 +3,7 @@
 #include <gmpxx.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace ribvault {
 namespace {
@@ -61,6 +62,14 @@ int compare_distance(Point p, const Segment& s, Unit radius) {
 int compare_distance(const Segment& s, const Segment& t, Unit radius) {
     if (segments_touch(s, t)) return radius > 0 ? -1 : 0;
     return std::min({compare_distance(s.a, t, radius), compare_distance(s.b, t, radius), compare_distance(t.a, s, radius), compare_distance(t.b, s, radius)});
+}
+
+double distance(const Segment& s, const Segment& t) {
+    if (segments_touch(s, t)) return 0;
+    double least = HUGE_VAL;
+    for (const Point p : {s.a, s.b}) least = std::min(least, squared_distance(p, t).value());
+    for (const Point p : {t.a, t.b}) least = std::min(least, squared_distance(p, s).value());
+    return std::sqrt(least);
 }
 
 int compare(const SquaredDistance& a, const SquaredDistance& b) {

@@ -29,6 +29,9 @@ int compare_distance(Point p, const Segment& s, Unit radius);
 /// Sign of distance(s, t) - radius, radius >= 0. Exact.
 int compare_distance(const Segment& s, const Segment& t, Unit radius);
 
+/// Of two closed segments, rounded: for measures and placements.
+double distance(const Segment& s, const Segment& t);
+
 /// Sign of a - b for two squared distances. Exact: long double triage, 192-bit products when it cannot tell.
 int compare(const SquaredDistance& a, const SquaredDistance& b);
 

@@ -94,7 +94,9 @@ void LayerFront::gather(Token& token) {
     for (int j = layer + up; complete && j >= layer - down; --j)
         token.eroded.push_back(at(j).region);
     Eroded& own = window_[static_cast<std::size_t>(window_top_ - layer)];
-    token.material = {.layer = layer, .slice = own.slice, .closings = std::move(own.closings)};
+    token.material.layer = layer;
+    token.material.slice = own.slice;
+    token.material.closings = std::move(own.closings);
     for (int j = layer + 1; j <= std::min(layer + settings_.support_gap_layers, layers_ - 1); ++j) token.material.slices_above.push_back(at(j).slice);
 }
 

@@ -7,25 +7,18 @@
 #include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/exact/point_location.hpp"
 #include "ribvault/print/drop_tiny_steps.hpp"
+#include "ribvault/print/gap_patches.hpp"
 #include "ribvault/print/lay_patches.hpp"
 #include "ribvault/print/place_dot.hpp"
 #include "ribvault/print/printed_tracks.hpp"
 #include "ribvault/print/support_paths.hpp"
-#include "ribvault/vault/cavity_boundary.hpp"
 
 namespace ribvault {
 namespace {
 
 constexpr int rounds = 6;  ///< of mending, each of which is followed by another look
-constexpr Unit within_edge = 5;  ///< by so much more than needed for rounding a patch may stand out of the slice whose edge it follows
 
-double distance(const Segment& s, const Segment& t) {
-    if (segments_touch(s, t)) return 0;
-    double least = HUGE_VAL;
-    for (const Point p : {s.a, s.b}) least = std::min(least, squared_distance(p, t).value());
-    for (const Point p : {t.a, t.b}) least = std::min(least, squared_distance(p, s).value());
-    return std::sqrt(least);
-}
+Lane lane_of(const PrintedTrack& track) { return {place_of(track, {0, 0, HUGE_VAL}), round_to_lattice(track.width.get_d() * units_per_mm)}; }
 
 /// Without its isolated roots, which hold up the last stub of a wall above: they are printed where something hangs without them, as patches.
 SupportForest without_dots(const SupportForest& forest) {
@@ -70,7 +63,9 @@ private:
     struct Hanging {
         const PrintedTrack* track;
         OpenStretch stretch;
+        bool over_gap;
         Segment place() const { return place_of(*track, stretch); }
+        HangingStretch hanging() const { return {lane_of(*track), stretch.from_mm * units_per_mm, stretch.to_mm * units_per_mm}; }
     };
 
     void judge() {
@@ -113,10 +108,10 @@ private:
     /// What of the layer above inside the outline is not held up.
     std::vector<Hanging> open() const {
         std::vector<Hanging> all;
-        for (const PrintPart& part : held_.parts) append_open(part.judgement, all);
+        for (const PrintPart& part : held_.parts) append_open(part.judgement, part.over_gap, all);
         return all;
     }
-    static void append_open(const PrintJudgement& judgement, std::vector<Hanging>& all) {
+    static void append_open(const PrintJudgement& judgement, bool over_gap, std::vector<Hanging>& all) {
         const std::vector<PrintedTrack>& tracks = judgement.above().tracks;
         std::vector<OpenStretch> stretches = judgement.open();
         // A track that is found wanting without a stretch that shows where is mended as a whole.
@@ -128,7 +123,7 @@ private:
             stretches.push_back({k, 0, std::hypot(track.b[0].get_d() - track.a[0].get_d(), track.b[1].get_d() - track.a[1].get_d())});
         }
         std::stable_sort(stretches.begin(), stretches.end(), [](const OpenStretch& a, const OpenStretch& b) { return a.track < b.track; });
-        for (const OpenStretch& stretch : stretches) all.push_back({&tracks[stretch.track], stretch});
+        for (const OpenStretch& stretch : stretches) all.push_back({&tracks[stretch.track], stretch, over_gap});
     }
 
     /// Branches whose gap may be what lets something hang reach their junction from now on. How many walls are new.
@@ -179,9 +174,11 @@ private:
         if (tracks_) return;
         without_patches_ = std::move(held_.plan);
         tracks_.emplace(without_patches_);
+        if (beside_ && beside_->walls) gap_patches_.emplace(*beside_, walls_below_gap_, without_patches_, *tracks_, patches_, settings_);
     }
     void lay_all_patches() {
         held_.plan = without_patches_;
+        held_.patches = static_cast<int>(patches_.size());
         held_.patch_length = lay_patches(patches_, *tracks_, held_.plan, settings_.nozzle, [&](const Segment& way) { return may_stand_outside(way); });
         held_.printed = std::make_shared<const PrintedLayer>(printed_layer(held_.plan));
     }
@@ -217,12 +214,17 @@ private:
 
     /// The dot under a stretch that is nearest to what is there, where that may be asked for: not with a removal gap.
     std::optional<PlacedDot> place(const Hanging& hanging) const {
-        if (beside_ && beside_->walls) return std::nullopt;
-        const PrintedTrack& track = *hanging.track;
-        const OpenStretch& stretch = hanging.stretch;
-        const Lane whole{place_of(track, {0, 0, HUGE_VAL}), round_to_lattice(track.width.get_d() * units_per_mm)};
-        return place_dot({whole, stretch.from_mm * units_per_mm, stretch.to_mm * units_per_mm}, material_near(hanging.place()), settings_.nozzle,
-                         settings_.support_radius);
+        if (gap_patches_) return std::nullopt;
+        return place_dot(hanging.hanging(), material_near(hanging.place()), settings_.nozzle, settings_.support_radius);
+    }
+
+    bool patch_at_gap(const Hanging& hanging, bool again) {
+        const bool added = gap_patches_->add(hanging.place(), again);
+        if (added && !again) return true;
+        std::vector<Lane> more;
+        if (hanging.over_gap)
+            for (const PrintedTrack& track : over_gap_->object) more.push_back(lane_of(track));
+        return gap_patches_->add_under_rim(hanging.hanging(), more) || added;
     }
 
     /// In the first half of the rounds dots as near to the tracks as can be; what these do not reach, and what sampling missed, in another way.
@@ -273,7 +275,7 @@ private:
             TrackKind kind = TrackKind::support;
             if ((outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) && may_stand_outside(s)) {
                 kind = TrackKind::external_support;
-            } else if (beside_ && patch_at_gap(hanging, round >= rounds / 2)) {
+            } else if (gap_patches_ && patch_at_gap(stretch, round >= rounds / 2)) {
                 continue;
             } else if (outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) {
                 const Point middle{(hanging.a.x + hanging.b.x) / 2, (hanging.a.y + hanging.b.y) / 2};
@@ -282,160 +284,11 @@ private:
                 s = {inside, inside};
             }
             patches_.push_back({s, kind});
-            ++held_.patches;
         }
     }
 
     /// With a removal gap only where walls may, and off the object's patches.
-    bool may_stand_outside(const Segment& s) {
-        if (!beside_ || !beside_->walls) return beside_ != nullptr;
-        if (std::any_of(patches_.begin(), patches_.end(), [&](const Patch& patch) { return patch.kind == TrackKind::support && distance(patch.segment, s) < static_cast<double>(apart()); }))
-            return false;
-        const Place& walls = gap_places().walls;
-        Box box;
-        box.add(s.a), box.add(s.b);
-        bool crosses = false;
-        walls.edges.visit(box, [&](std::uint32_t k) { crosses = crosses || segments_touch(walls.edges.segments()[k], s); });
-        return !crosses && walls.location.locate(s.a) == Side::inside;
-    }
-
-    /// How far apart the centre lines of the object's tracks and of supports are to be.
-    Unit apart() const { return settings_.support_gap + settings_.nozzle; }
-
-    /// How far a patch of the object is from what is printed outside, as far as apart() and a hair.
-    double room_around(const Segment& patch) const {
-        Box box;
-        box.add(patch.a), box.add(patch.b);
-        box.grow(apart() + 1);
-        double room = static_cast<double>(apart() + 1);
-        tracks_->segments().visit(box, [&](std::uint32_t k) {
-            const PlanTracks::Place place = tracks_->place(k);
-            if (without_patches_.tracks[place.track].paths[place.path].kind == TrackKind::external_support)
-                room = std::min(room, distance(tracks_->segments().segments()[k], patch));
-        });
-        for (const Patch& other : patches_)
-            if (other.kind == TrackKind::external_support) room = std::min(room, distance(other.segment, patch));
-        return room;
-    }
-    bool keeps_off_supports(const Segment& patch) const { return room_around(patch) >= static_cast<double>(apart()); }
-
-    /// Where a track must run that keeps within the slice at its edge next to p, however far inside p is: `depth` from the edge.
-    Point moved_inwards(Point p, Unit depth) {
-        const Place& air = gap_places().air;
-        const Segment& edge = air.edges.segments()[air.edges.nearest(p).index];
-        const Point foot = nearest_point(p, edge);
-        // From air to object: across the edge, whose left is air, or past a corner.
-        Point way{edge.b.y - edge.a.y, edge.a.x - edge.b.x};
-        if ((foot == edge.a || foot == edge.b) && length(p - foot) > 100) way = air.location.locate(p) == Side::inside ? foot - p : p - foot;
-        const double l = length(way), t = l > 0 ? static_cast<double>(depth) / l : 0;
-        return foot + Point{round_to_lattice(t * static_cast<double>(way.x)), round_to_lattice(t * static_cast<double>(way.y))};
-    }
-    bool is_within(Point p, Unit depth) {
-        const Place& air = gap_places().air;
-        return air.location.locate(p) != Side::inside && compare_distance(p, air.edges.segments()[air.edges.nearest(p).index], depth) >= 0;
-    }
-
-    /// The point of the slice that is nearest to p.
-    Point nearest_of_slice(Point p) {
-        const Place& air = gap_places().air;
-        return air.location.locate(p) == Side::inside ? nearest_point(p, air.edges.segments()[air.edges.nearest(p).index]) : p;
-    }
-
-    /// The place for a patch of the object that holds up what is over p: as near to it as a track can be that does not stand out of the slice. Where the slice has no room for one,
-    /// the point of the slice nearest to p, moved inwards as far as needed to keep off external supports; where they are too near on both sides, the place farthest from them.
-    Point place_in_object(Point p) {
-        const Unit flush = settings_.nozzle / 2 - within_edge;
-        Point within = p;
-        for (int step = 0; step < 4; ++step) {
-            if (is_within(within, flush - within_edge)) return within;
-            within = moved_inwards(within, flush);
-        }
-        const Point nearest = nearest_of_slice(p);
-        Point best = nearest;
-        double most = -1;
-        for (const Point place : {nearest, moved_inwards(p, flush / 4), moved_inwards(p, flush / 2), moved_inwards(p, 3 * flush / 4), moved_inwards(p, flush)}) {
-            const double room = room_around({place, place});
-            if (room > most) best = place, most = room;
-            if (room >= static_cast<double>(apart())) break;
-        }
-        return best;
-    }
-
-    /// Within a removal gap patches are the object's: where its slice is too thin to be printed, they are printed, in pieces short
-    /// enough to follow its outline. Says no when the stretch is not over such a place.
-    bool patch_object(const Segment& hanging, Unit reach, bool at_edge = false) {
-        if (gap_places().air.edges.empty()) return false;
-        const NearestSegment& near = gap_places().air.edges;
-        const PointLocation& air = gap_places().air.location;
-        const auto pieces = static_cast<std::size_t>(length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
-        const std::size_t before = patches_.size();
-        std::vector<Point> at;
-        for (std::size_t k = 0; k <= pieces; ++k) {
-            const double t = static_cast<double>(k) / static_cast<double>(pieces);
-            const Point d = hanging.b - hanging.a, p = hanging.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))};
-            if (air.locate(p) == Side::inside && compare_distance(p, near.segments()[near.nearest(p).index], reach) > 0) return patches_.resize(before), false;
-            at.push_back(at_edge ? nearest_of_slice(p) : place_in_object(p));
-            if (k == 0) continue;
-            // Feet on two sides of a notch: the way between them would lie in the air.
-            const Point middle{(at[k - 1].x + at[k].x) / 2, (at[k - 1].y + at[k].y) / 2};
-            const bool apart = air.locate(middle) == Side::inside &&
-                               compare_distance(middle, near.segments()[near.nearest(middle).index], settings_.nozzle / 4) > 0;
-            if (apart || !keeps_off_supports({at[k - 1], at[k]})) {
-                patches_.push_back({{at[k - 1], at[k - 1]}, TrackKind::support});
-                patches_.push_back({{at[k], at[k]}, TrackKind::support});
-            } else {
-                patches_.push_back({{at[k - 1], at[k]}, TrackKind::support});
-            }
-        }
-        held_.patches += static_cast<int>(pieces);
-        return true;
-    }
-
-    /// The object's edge, where it is not printed (but for its corners) and so fails to hold up what it should; else a support where one may stand. `again`: that has not
-    /// helped, and the object is printed at its very edge, though that stands into the gap.
-    bool patch_at_gap(const Segment& hanging, bool again) {
-        if (!beside_->walls) return false;
-        const bool object_first = again || !edge_is_printed(hanging.a, settings_.nozzle / 4) || !edge_is_printed(hanging.b, settings_.nozzle / 4);
-        return (object_first && patch_object(hanging, settings_.reach_of_object(), again)) || patch_beside_gap(hanging) ||
-               (!object_first && patch_object(hanging, settings_.reach_of_object()));
-    }
-
-    /// The allowed place nearest to p, if it can hold up all that a track there would: within ρ.
-    std::optional<Point> place_for_wall(Point p) {
-        const Place& walls = gap_places().walls;
-        if (walls.edges.empty() || walls.location.locate(p) == Side::inside) return walls.edges.empty() ? std::nullopt : std::optional(p);
-        const Point near = nearest_point(p, walls.edges.segments()[walls.edges.nearest(p).index]);
-        for (Unit ring = 1; ring <= 3; ++ring)
-            for (Unit dy = -ring; dy <= ring; ++dy)
-                for (Unit dx = -ring; dx <= ring; ++dx)
-                    if (const Point q{near.x + dx, near.y + dy}; walls.location.locate(q) == Side::inside)
-                        return squared_length(q - p) <= settings_.support_radius * settings_.support_radius ? std::optional(q) : std::nullopt;
-        return std::nullopt;
-    }
-
-    /// Where walls must keep off what is right under a stretch: patches at the nearest places where they need not, as far as these are near enough. Says no when none is.
-    bool patch_beside_gap(const Segment& hanging) {
-        const auto pieces = static_cast<std::size_t>(4 * length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
-        std::vector<Point> at;
-        for (std::size_t k = 0; k <= pieces; ++k) {
-            const double t = static_cast<double>(k) / static_cast<double>(pieces);
-            const Point d = hanging.b - hanging.a;
-            const std::optional<Point> place = place_for_wall(hanging.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))});
-            if (!place) continue;
-            if (at.empty() || at.back() != *place) at.push_back(*place);
-        }
-        if (at.empty()) return false;
-        const std::size_t before = patches_.size();
-        for (std::size_t k = 1; k < at.size(); ++k)
-            if (may_stand_outside({at[k - 1], at[k]})) patches_.push_back({{at[k - 1], at[k]}, TrackKind::external_support});
-        if (patches_.size() - before + 1 < at.size()) {  // some way between them is barred
-            patches_.resize(before);
-            for (const Point p : at) patches_.push_back({{p, p}, TrackKind::external_support});
-        }
-        if (patches_.size() == before) patches_.push_back({{at[0], at[0]}, TrackKind::external_support});
-        held_.patches += static_cast<int>(patches_.size() - before);
-        return true;
-    }
+    bool may_stand_outside(const Segment& s) const { return gap_patches_ ? gap_patches_->may_stand(s) : beside_ != nullptr; }
 
     /// With a gap of layers: what hangs outside the outline within reach of the object's slice is the slice's to hold up, all else is held up farther down.
     void patch_object_under_overhangs() {
@@ -443,32 +296,12 @@ private:
         std::remove_copy_if(above_->tracks.begin(), above_->tracks.end(), std::back_inserter(object.tracks), is_external_support);
         const PrintJudgement judgement(object, *held_.printed, settings_, [&](const PrintedLayer& below) { return counted_below(below.tracks, settings_); });
         std::vector<Hanging> hanging;
-        append_open(judgement, hanging);
+        append_open(judgement, false, hanging);
         if (hanging.empty()) return;
         begin_patches();
-        const int before = held_.patches;
-        for (const Hanging& stretch : hanging) {
-            // In pieces: part of a stretch may hang beyond the object's reach.
-            const Segment whole = stretch.place();
-            const auto pieces = static_cast<std::size_t>(length(whole) / static_cast<double>(settings_.nozzle)) + 1;
-            const auto at = [&](std::size_t k) {
-                const double t = static_cast<double>(k) / static_cast<double>(pieces);
-                const Point d = whole.b - whole.a;
-                return whole.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))};
-            };
-            // Where the slice is not printed at its edge; the rim of what hangs may be within its reach though the centre line is not. What only a rounded corner leaves
-            // is the supports' where they can stand.
-            for (std::size_t k = 0; k < pieces; ++k) {
-                const auto everywhere = [&](const auto& is) {
-                    return is(at(k)) && is({(at(k).x + at(k + 1).x) / 2, (at(k).y + at(k + 1).y) / 2}) && is(at(k + 1));
-                };
-                const bool printed = everywhere([&](Point p) { return edge_is_printed(p, settings_.nozzle / 4); });
-                if (printed && everywhere([&](Point p) { return supports_reach_rim(p); })) continue;
-                if (!patch_object({at(k), at(k + 1)}, settings_.reach_of_object(), printed))
-                    patch_object({at(k), at(k + 1)}, settings_.reach_of_object() + settings_.nozzle / 2);
-            }
-        }
-        if (held_.patches == before) {
+        const std::size_t before = patches_.size();
+        for (const Hanging& stretch : hanging) gap_patches_->add_to_object(stretch.place());
+        if (patches_.size() == before) {
             held_.plan = without_patches_;
             if (!patches_.empty()) lay_all_patches();
             return;
@@ -476,56 +309,6 @@ private:
         lay_all_patches();
         held_.mended = true;
         for (PrintPart& part : held_.parts) part.judgement.change_below(*held_.printed);
-    }
-
-    /// May a support under the gap come so near to the outer rim of a track over p that it holds it up?
-    bool supports_reach_rim(Point p) {
-        if (!walls_below_gap_) return false;
-        if (!below_gap_) below_gap_.emplace(*walls_below_gap_);
-        if (below_gap_->edges.empty()) return false;
-        const Place& air = gap_places().air;
-        const Segment& edge = air.edges.segments()[air.edges.nearest(p).index];
-        const Point foot = nearest_point(p, edge);
-        const bool outside = air.location.locate(p) == Side::inside;
-        Point way{edge.a.y - edge.b.y, edge.b.x - edge.a.x};  // to the left of the edge, where air is
-        if ((foot == edge.a || foot == edge.b) && length(p - foot) > 100) way = outside ? p - foot : foot - p;
-        const double l = length(way), t = l > 0 ? static_cast<double>(settings_.nozzle / 2) / l : 0;
-        const Point rim = p + Point{round_to_lattice(t * static_cast<double>(way.x)), round_to_lattice(t * static_cast<double>(way.y))};
-        return below_gap_->location.locate(rim) == Side::inside ||
-               compare_distance(rim, below_gap_->edges.segments()[below_gap_->edges.nearest(rim).index], settings_.support_radius - 4 * settings_.slack) <= 0;
-    }
-
-    /// Is the place of the slice that is nearest to p within half a width and `beyond` of a track's centre line? (A corner of 90° is 0.41 r beyond.)
-    bool edge_is_printed(Point p, Unit beyond) {
-        const Place& air = gap_places().air;
-        if (air.edges.empty()) return false;
-        const Point foot = nearest_of_slice(p);
-        Box box;
-        box.add(foot);
-        box.grow(2 * settings_.nozzle);
-        bool printed = false;
-        tracks_->segments().visit(box, [&](std::uint32_t k) {
-            const PlanTracks::Place place = tracks_->place(k);
-            const Unit width = without_patches_.tracks[place.track].paths[place.path].width;
-            printed = printed || compare_distance(foot, tracks_->segments().segments()[k], width / 2 + beyond) <= 0;
-        });
-        return printed;
-    }
-
-    /// A region with what it takes to look things up in it.
-    struct Place {
-        explicit Place(const Region& region) : Place(region, edges_of(region)) {}
-        Place(const Region& region, std::vector<Segment> edges) : edges(std::move(edges)), location(edges_of(region), units_per_mm) {}
-        NearestSegment edges;
-        PointLocation location;
-    };
-    /// With a removal gap: where walls may stand, and what lies outside the slice, whose edges are the slice's. Made when first asked for.
-    struct GapPlaces {
-        Place walls, air;
-    };
-    const GapPlaces& gap_places() {
-        if (!gap_places_) gap_places_.emplace(GapPlaces{Place(*beside_->walls), Place(beside_->region, edges_off_frame(beside_->region))});
-        return *gap_places_;
     }
 
     LayerPlan shell_;
@@ -536,11 +319,10 @@ private:
     HeldLayer held_;
     const Cavity* beside_;
     const Region* walls_below_gap_;
-    std::optional<GapPlaces> gap_places_;
-    std::optional<Place> below_gap_;  ///< of walls_below_gap_
     LayerPlan without_patches_;         ///< once there are patches
     std::optional<PlanTracks> tracks_;  ///< of it
     std::vector<Patch> patches_;
+    std::optional<GapPatches> gap_patches_;  ///< with a removal gap, once there are patches
     std::vector<Point> tried_;
 };
 

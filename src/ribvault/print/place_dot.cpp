@@ -10,7 +10,7 @@ namespace ribvault {
 namespace {
 
 constexpr double along = 1000, across = 400;  ///< spacing of the samples, lattice units
-constexpr double room = along;                ///< that the dot keeps for what lies between samples
+constexpr double room = sampling_room;
 
 Vec nearest_on(const Segment& s, Vec p) {
     const Vec a = vec(s.a), d = vec(s.b) - a;
@@ -41,23 +41,30 @@ std::vector<Lane> within_reach(const HangingStretch& stretch, const std::vector<
     return near;
 }
 
-/// What hangs, as samples: of every cross-section all that is beyond reach, or what is nearest to that.
-std::vector<Vec> hanging(const HangingStretch& stretch, const std::vector<Lane>& material, double rho, double& most) {
+/// Samples of every cross-section.
+std::vector<std::vector<Vec>> sections_of(const HangingStretch& stretch) {
     const Vec a = vec(stretch.track.centre.a), d = vec(stretch.track.centre.b) - a;
     const double l = norm(d), half = static_cast<double>(stretch.track.width) / 2;
     const Vec ahead = l > 0 ? 1 / l * d : Vec{1, 0}, aside{-ahead.y, ahead.x};
     const double from = std::max(stretch.from, -half), to = std::min(stretch.to, l + half);
-    const int sections = static_cast<int>((to - from) / along) + 2;
-    std::vector<Vec> points;
-    most = -HUGE_VAL;
-    for (int k = 0; k < sections; ++k) {
-        const double s = from + (to - from) * k / (sections - 1);
+    std::vector<std::vector<Vec>> sections(static_cast<std::size_t>((to - from) / along) + 2);
+    for (std::size_t k = 0; k < sections.size(); ++k) {
+        const double s = from + (to - from) * static_cast<double>(k) / static_cast<double>(sections.size() - 1);
         const double beyond = s < 0 ? -s : s > l ? s - l : 0, reach = std::sqrt(std::max(0.0, half * half - beyond * beyond));
         const int steps = static_cast<int>(2 * reach / across) + 2;
+        for (int j = 0; j < steps; ++j) sections[k].push_back(a + s * ahead + (-reach + 2 * reach * j / (steps - 1)) * aside);
+    }
+    return sections;
+}
+
+/// What hangs, as samples: of every cross-section all that is beyond reach, or what is nearest to that.
+std::vector<Vec> hanging(const HangingStretch& stretch, const std::vector<Lane>& material, double rho, double& most) {
+    std::vector<Vec> points;
+    most = -HUGE_VAL;
+    for (const std::vector<Vec>& section : sections_of(stretch)) {
         Vec worst;
         double worst_excess = -HUGE_VAL;
-        for (int j = 0; j < steps; ++j) {
-            const Vec p = a + s * ahead + (-reach + 2 * reach * j / (steps - 1)) * aside;
+        for (const Vec p : section) {
             const double e = excess(p, material, rho);
             if (e > worst_excess) worst_excess = e, worst = p;
             if (e > 0) points.push_back(p);
@@ -69,6 +76,21 @@ std::vector<Vec> hanging(const HangingStretch& stretch, const std::vector<Lane>&
 }
 
 }  // namespace
+
+std::vector<Point> hanging_points(const HangingStretch& stretch, const std::vector<Lane>& material, Unit rho) {
+    const std::vector<Lane> near = within_reach(stretch, material, static_cast<double>(rho));
+    std::vector<Point> points;
+    Vec worst;
+    double most = -HUGE_VAL;
+    for (const std::vector<Vec>& section : sections_of(stretch))
+        for (const Vec p : section) {
+            const double e = excess(p, near, static_cast<double>(rho));
+            if (e > 0) points.push_back(rounded(p));
+            if (e > most) most = e, worst = p;
+        }
+    if (points.empty()) points.push_back(rounded(worst));
+    return points;
+}
 
 std::optional<PlacedDot> place_dot(const HangingStretch& stretch, const std::vector<Lane>& material, Unit width, Unit rho) {
     if (material.empty()) return std::nullopt;

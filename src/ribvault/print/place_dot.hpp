@@ -20,6 +20,13 @@ struct HangingStretch {
     double from = 0, to = 0;  ///< along the centre line from a, lattice units; may exceed its ends, whose round caps count
 };
 
+/// What a placement keeps in hand for what lies between samples.
+inline constexpr Unit sampling_room = 1000;
+
+/// Points of a stretch's cross-sections that are beyond the reach of all material, 10 µm along and 4 µm across from each other; where there are
+/// none, the one that is nearest to that.
+std::vector<Point> hanging_points(const HangingStretch& stretch, const std::vector<Lane>& material, Unit rho);
+
 struct PlacedDot {
     Point at;
     double way = 0;  ///< to the centre line of the nearest material, lattice units
