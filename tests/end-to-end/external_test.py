@@ -74,6 +74,14 @@ class External(unittest.TestCase):
                 fewer = self.run_program("verify", "a.gcode", *rules[:-1], str(int(rules[-1]) - 1), "--svg", "pictures")
                 self.assertEqual(fewer.returncode, 1, fewer.stdout)
 
+    def test_layers_of_the_gap_on_which_nothing_is_printed_count(self):
+        # A box over another one and air: under it supports stand on that, up to the gap, and the gap's layers are empty.
+        write_stl(self.table, box((-4, -4, 0), (4, 4, 2)) + box((-4, -4, 4), (4, 4, 6)))
+        done = self.run_program("generate", self.table, "-o", "a.gcode", "--support", "external", "--support-gap-layers", "3")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        for layers, expected in (("2", 1), ("3", 0), ("4", 0)):
+            self.assertEqual(self.run_program("verify", "a.gcode", "--support-gap-layers", layers).returncode, expected)
+
     def test_supports_on_the_bed_alone_stand_on_no_part_of_the_object(self):
         # A roof over a foot that reaches a little farther.
         write_stl(self.table, box((-4.5, -4.5, 0), (4.5, 4.5, 1)) + box((-1, -1, 1), (1, 1, 7)) + box((-4, -4, 7), (4, 4, 8)))

@@ -22,8 +22,10 @@ void check(const ribvault::GcodePrint& print) {
         const ribvault::GcodeLayer& layer = print.layers[k];
         require(!layer.tracks.empty() && layer.height > 0 && layer.layer < print.layer_count);
         require(k == 0 || print.layers[k - 1].z <= layer.z);
-        require(layer.on_bed == layer.below.empty());
+        require(layer.on_bed == (layer.below.empty() && layer.under_air.empty()));
+        require((layer.air_layers > 0) == !layer.under_air.empty() && (layer.below.empty() || layer.under_air.empty()));
         for (const std::size_t j : layer.below) require(j < k && print.layers[j].z < layer.z);
+        for (const std::size_t j : layer.under_air) require(j < k && print.layers[j].z < layer.z);
         for (const ribvault::GcodeTrack& t : layer.tracks)
             require(t.a < layer.points.size() && t.b < layer.points.size() && t.width > 0 && t.feature < print.features.size() &&
                     t.line > 0 && t.line <= print.lines);

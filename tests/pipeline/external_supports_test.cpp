@@ -242,7 +242,7 @@ TEST_CASE("ways to the bed: every point of one is within rho of one on the layer
     }
 }
 
-TEST_CASE("a gap of layers: nothing stands right under the object, and what hangs is proved through the gap") {
+TEST_CASE("over a gap of layers nothing stands right under the object, and what hangs is proved through the gap") {
     for (const int gap : {1, 3}) {
         Settings settings = with(Support::external, 10000);
         settings.support_gap_layers = gap;
@@ -276,8 +276,8 @@ TEST_CASE("a gap of layers: nothing stands right under the object, and what hang
     }
 }
 
-TEST_CASE("what the rounded corners of a printed slice leave is the supports' under the gap: the perimeter is not printed twice") {
-    for (const auto& [sides, twist] : {std::pair(12, 0.0), {12, 0.3}, {24, 0.2}})
+TEST_CASE("the supports under the gap hold up what a printed slice's rounded corners leave, so the perimeter is not printed twice") {
+    for (const auto& [sides, twist] : {std::pair(3, 0.0), {4, 0.0}, {5, 0.25}, {12, 0.0}, {12, 0.3}, {24, 0.2}})
         for (const int gap : {1, 3}) {
             Settings settings = with(Support::external, 20000);
             settings.support_gap_layers = gap;
@@ -286,6 +286,7 @@ TEST_CASE("what the rounded corners of a printed slice leave is the supports' un
             CHECK(report.verdict.proved);
             CHECK(report.verdict.print_proved);
             CHECK(report.totals.external_support_volume_mm3 > 100);
+            if (sides == 3) continue;           // tips of 60 degrees are too thin for a track: they get patches
             CHECK(report.totals.patches < 40);  // hundreds where corners get their own
             CHECK(report.verdict.layers_with_patches_in_gap.empty());
         }

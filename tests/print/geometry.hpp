@@ -43,7 +43,7 @@ inline std::vector<Segment> segments(const Region& region) {
 inline double distance(const std::vector<Segment>& a, const std::vector<Segment>& b) {
     double nearest = INFINITY;
     for (const Segment& s : a)
-        for (const Segment& t : b) nearest = std::min(nearest, distance(s, t));
+        for (const Segment& t : b) nearest = std::min(nearest, test::distance(s, t));
     return nearest;
 }
 

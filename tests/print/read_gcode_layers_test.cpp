@@ -78,6 +78,17 @@ TEST_CASE("supports at heights of their own hold up what they reach", "[gcode]")
     CHECK(print.layers[2].below == std::vector<std::size_t>{0, 1});
 }
 
+TEST_CASE("under layers of air nothing is directly below; what is next farther down is known", "[gcode]") {
+    const GcodePrint print = read("M83\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\nG1 Z1.2\nG1 X10 E1\nG1 Z1.4\nG1 X0 E1\n");
+    REQUIRE(print.layers.size() == 4);
+    CHECK(print.layers[2].below.empty());
+    CHECK_FALSE(print.layers[2].on_bed);
+    CHECK(print.layers[2].under_air == std::vector<std::size_t>{1});
+    CHECK(print.layers[2].air_layers == 3);
+    CHECK(print.layers[3].below == std::vector<std::size_t>{2});
+    CHECK(print.layers[3].air_layers == 0);
+}
+
 TEST_CASE("over a gap the nearest layer below counts", "[gcode]") {
     const GcodePrint print = read("M83\n;TYPE:raft\n;HEIGHT:0.3\nG1 Z.3\nG1 X10 E1\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.65\nG1 X0 E1\n");
     REQUIRE(print.layers.size() == 2);

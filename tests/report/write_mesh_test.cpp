@@ -122,7 +122,7 @@ TEST_CASE("STL and 3MF read back as the same solids, in mm") {
     }
 }
 
-TEST_CASE("a 3MF is closed by its vertex numbers: each edge is used once in either direction, also where walls touch") {
+TEST_CASE("a 3MF is closed by its vertex numbers, each edge used once in either direction, also where walls touch") {
     const ScratchFolder folder;
     std::string facets;
     append_walls(star(), 0, 20000, Settings(), facets);

@@ -215,7 +215,7 @@ TEST_CASE("a hole, and a component in it", "[boundary]") {
     CHECK(figures(v).lo == Approx(16 * M_PI - ring_area).epsilon(1e-9));
 }
 
-TEST_CASE("stadiums that touch in a point: the region on both sides is two components, or one that touches itself", "[boundary]") {
+TEST_CASE("where stadiums touch in a point the region on both sides is two components, or one that touches itself", "[boundary]") {
     // Two dots below that touch each other inside a track above: it is cut in two where they reach across.
     const PrintedVerdict cut = traced(printed({track(-5, 0, 5, 0, 2)}), printed({dot(0, 1, 1), dot(0, -1, 1)}), q("1/2"));
     REQUIRE(cut.regions.size() == 1);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -83,7 +85,7 @@ PrintedLayer without_bridges(const GcodeLayer& layer, PrintedLayer upper, const 
 /// Of groups of tracks that were judged apart.
 struct GroupVerdict {
     PrintedVerdict all;
-    bool unlocated = false;  ///< a group is refuted and no region shows where
+    bool unlocated = false;  ///< a track is refuted and no region shows where
 };
 
 void add_verdict(PrintedVerdict more, PrintedVerdict& verdict) {
@@ -98,21 +100,31 @@ void add_verdict(PrintedVerdict more, PrintedVerdict& verdict) {
 }
 
 GroupVerdict located(PrintedVerdict verdict) {
-    const bool unlocated = !verdict.supported && verdict.regions.empty();
+    std::vector<char> shown(verdict.track_supported.size(), 0);
+    for (const UnsupportedRegion& region : verdict.regions)
+        for (const std::size_t k : region.tracks) shown[k] = 1;
+    bool unlocated = false;
+    for (std::size_t k = 0; k < shown.size(); ++k) unlocated = unlocated || (!verdict.track_supported[k] && !shown[k]);
     return {std::move(verdict), unlocated};
 }
 
-/// The entries under this one and under its gap, each once; nothing where the gap reaches down to the bed.
+/// The entries under this one and under its gap, each once; nothing where the gap reaches down to the bed. Layers on which nothing is printed count.
 std::optional<std::vector<std::size_t>> entries_below(const GcodePrint& print, std::size_t entry, int gap) {
-    std::set<std::size_t> all, level{entry};
-    for (int k = 0; k <= gap; ++k) {
-        if (k > 0 && std::any_of(level.begin(), level.end(), [&](std::size_t e) { return print.layers[e].on_bed; })) return std::nullopt;
-        std::set<std::size_t> next;
-        for (const std::size_t e : level) next.insert(print.layers[e].below.begin(), print.layers[e].below.end());
-        all.insert(next.begin(), next.end());
-        level = std::move(next);
+    std::map<std::size_t, int, std::greater<>> layers_down{{entry, 0}};
+    for (auto at = layers_down.begin(); at != layers_down.end(); ++at) {
+        const GcodeLayer& layer = print.layers[at->first];
+        const int down = at->second + layer.air_layers + 1;
+        if (down > gap + 1) continue;
+        if (layer.on_bed) return std::nullopt;
+        for (const std::size_t e : layer.air_layers > 0 ? layer.under_air : layer.below) {  // all of smaller number
+            int& least = layers_down.try_emplace(e, down).first->second;
+            least = std::min(least, down);
+        }
     }
-    return std::vector<std::size_t>(all.begin(), all.end());
+    std::vector<std::size_t> entries;
+    for (const auto& [e, down] : layers_down)
+        if (down > 0) entries.push_back(e);
+    return std::vector<std::size_t>(entries.rbegin(), entries.rend());
 }
 
 /// All of `upper` over `lower`, the material directly below, or where the rules tell supports from the object, each over what may hold it up: all of

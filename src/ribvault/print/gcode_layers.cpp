@@ -214,7 +214,7 @@ void find_layers_below(std::vector<GcodeLayer>& layers) {
     for (std::size_t k = 0; k < layers.size(); ++k) {
         GcodeLayer& layer = layers[k];
         const std::int64_t rounding = std::min(pm_per_mm / 200, layer.height / 4);  // 0.005 mm, less than the layer
-        layer.below.clear();
+        layer.below.clear(), layer.under_air.clear(), layer.air_layers = 0;
         layer.on_bed = layer.layer == 0 || bottom(k) <= bed + rounding;
         if (layer.on_bed) continue;
         for (std::size_t j = k; j-- > 0;) {
@@ -229,10 +229,11 @@ void find_layers_below(std::vector<GcodeLayer>& layers) {
                 layer.on_bed = true;
                 continue;
             }
-            const std::int64_t nearest = top(j);
-            if (nearest < bottom(k) - layer.height) continue;  // a whole layer of air: nothing is below
+            const std::int64_t nearest = top(j), air = bottom(k) - nearest;
+            if (air > layer.height) layer.air_layers = static_cast<int>((air - rounding + layer.height - 1) / layer.height);
+            std::vector<std::size_t>& entries = layer.air_layers > 0 ? layer.under_air : layer.below;
             for (; top(j) == nearest; --j) {
-                layer.below.push_back(j);
+                entries.push_back(j);
                 if (j == 0) break;
             }
         }

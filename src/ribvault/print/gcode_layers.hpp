@@ -92,8 +92,9 @@ private:
 
 /// The rule for `below` (1e-9 mm throughout). An entry with top z and height h has its bottom at z - h. Directly below are all
 /// entries whose top is at that bottom, to within 0.005 mm (slicers round), and those that reach past it but not to z
-/// (layers of other heights in between: supports, combined infill). Where there is none, the nearest below counts; below the
-/// lowest layer, and below every entry whose bottom is no higher than the lowest's, is the bed.
+/// (layers of other heights in between: supports, combined infill). Where there is none, the nearest below counts unless a whole layer
+/// of air is between (`under_air`, `air_layers`); below the lowest layer, and below every entry whose bottom is no higher than the lowest's,
+/// is the bed.
 void find_layers_below(std::vector<GcodeLayer>& layers);
 
 }  // namespace ribvault

@@ -44,7 +44,9 @@ struct GcodeLayer {
     std::vector<GcodePoint> points;
     std::vector<GcodeTrack> tracks;    ///< in the order of the file
     bool on_bed = false;
-    std::vector<std::size_t> below;    ///< entries whose material is directly below (see directly_below)
+    std::vector<std::size_t> below;    ///< entries whose material is directly below (see find_layers_below)
+    std::vector<std::size_t> under_air; ///< where nothing is: those next farther down
+    int air_layers = 0;                ///< so many layers of this one's height of air are between
 };
 
 struct GcodePrint {
