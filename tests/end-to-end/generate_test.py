@@ -16,6 +16,14 @@ CUBE = ROOT / "experiments/models/cube20.stl"
 CORPUS = ROOT / "tests/corpus/meshes"
 
 
+def files_up_to(size):
+    """For a child process: files cannot grow beyond so many bytes, as on a full disk."""
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+    return limit
+
+
 class Generate(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
@@ -110,15 +118,21 @@ class Generate(unittest.TestCase):
 
     def test_a_full_disk_leaves_what_was_there(self):
         (self.folder / "a.gcode").write_text("what the user had")
-
-        def small_files():
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (100000, 100000))
-
-        done = self.run_program(CUBE, "-o", "a.gcode", "--report", "a.json", preexec_fn=small_files)
+        done = self.run_program(CUBE, "-o", "a.gcode", "--report", "a.json", preexec_fn=files_up_to(100000))
         self.assertEqual(done.returncode, 6, done.stderr)
         self.assertEqual((self.folder / "a.gcode").read_text(), "what the user had")
         self.assertEqual(self.files(), {"a.gcode"})
+
+    def test_a_full_temporary_folder_costs_time_but_no_result(self):
+        # What the sweeps before the run made is kept there, if it has room, so that the best one need not be made again.
+        for room in (0, 5000):
+            done = self.run_program(CUBE, "--strategy", "thrifty", preexec_fn=files_up_to(room))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            results = [line for line in done.stdout.splitlines() if line.startswith(("proved", "material"))]
+            if room == 0:
+                expected = [line for line in self.run_program(CUBE, "--strategy", "thrifty").stdout.splitlines() if line.startswith(("proved", "material"))]
+                self.assertEqual(len(expected), 2)
+            self.assertEqual(results, expected)
 
     def test_interrupted(self):
         (self.folder / "a.gcode").write_text("what the user had")

@@ -29,6 +29,16 @@ std::string step(Sweep& sweep, const Token& token, bool keep) {
     return done;
 }
 
+/// Does it, and without what was kept so far where the temporary folder is full: the best sweep can be made again.
+void while_there_is_room(std::optional<KeptSupports>& kept, const std::function<void()>& keep) {
+    try {
+        keep();
+    } catch (const Error& e) {
+        if (e.kind() != ErrorKind::cannot_write) throw;
+        kept.reset();
+    }
+}
+
 }  // namespace
 
 Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int threads, const std::function<bool()>& stop, const OutsideRoom* room,
@@ -48,14 +58,14 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
     LayerFront front(slicer, settings, nullptr, stop, room);
     Chosen chosen;
-    const bool keep = sweeps.size() <= most_kept;
-    if (keep) chosen.supports.emplace(sweeps.size());
+    if (sweeps.size() <= most_kept) while_there_is_room(chosen.supports, [&] { chosen.supports.emplace(sweeps.size()); });
     std::vector<std::string> finished(sweeps.size());
     int done = 0;
     const auto sweep = [&](TokenPtr token) {
         if (token->layer >= 0) {
-            tbb::parallel_for(std::size_t{0}, sweeps.size(), [&](std::size_t k) { finished[k] = step(sweeps[k], *token, keep && done > 0); });
-            if (keep && done > 0) chosen.supports->add(finished);
+            const bool keep = chosen.supports && done > 0;
+            tbb::parallel_for(std::size_t{0}, sweeps.size(), [&](std::size_t k) { finished[k] = step(sweeps[k], *token, keep); });
+            if (keep) while_there_is_room(chosen.supports, [&] { chosen.supports->add(finished); });
             progress(++done, slicer.layer_count());
         }
         front.remove(token);
@@ -67,12 +77,13 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
     const auto least = std::min_element(chosen.candidates.begin(), chosen.candidates.end(), [](const Candidate& a, const Candidate& b) { return a.length_mm < b.length_mm; });
     chosen.sweep = static_cast<std::size_t>(least - chosen.candidates.begin());
     std::rotate(chosen.candidates.begin(), least, least + 1);
-    if (keep) {
-        // Under layer 0 nothing continues.
-        for (std::size_t k = 0; k < sweeps.size(); ++k) finished[k] = packed_supports(sweeps[k].supports);
-        chosen.supports->add(finished);
-        chosen.supports->finish();
-    }
+    if (chosen.supports)
+        while_there_is_room(chosen.supports, [&] {
+            // Under layer 0 nothing continues.
+            for (std::size_t k = 0; k < sweeps.size(); ++k) finished[k] = packed_supports(sweeps[k].supports);
+            chosen.supports->add(finished);
+            chosen.supports->finish();
+        });
     return chosen;
 }
 

@@ -13,7 +13,7 @@ namespace ribvault {
 
 struct Chosen {
     std::vector<Candidate> candidates;      ///< the best first, the others in the order in which they were tried; empty where nothing is open
-    std::optional<KeptSupports> supports;   ///< what the sweeps made, unless they were too many
+    std::optional<KeptSupports> supports;   ///< what the sweeps made, unless they were too many or there was no place for it on disk
     std::size_t sweep = 0;                  ///< the best one's place in `supports`
 };
 

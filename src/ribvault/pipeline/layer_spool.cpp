@@ -15,6 +15,10 @@ namespace {
                                              "); free space in the temporary folder");
 }
 
+[[noreturn]] void fail_to_read(int reason) {
+    throw Error(ErrorKind::cannot_write, std::string("the temporary file for the layers cannot be read back (") + std::strerror(reason) + "); run it again");
+}
+
 }  // namespace
 
 LayerSpool::LayerSpool() : file_(std::tmpfile()) {
@@ -36,7 +40,7 @@ std::string LayerSpool::at(std::size_t k) const {
     for (std::size_t read = 0; read < text.size();) {
         const ssize_t got = pread(fileno(file_.get()), text.data() + read, text.size() - read, static_cast<off_t>(begin + read));
         if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) fail(got < 0 ? errno : EIO);
+        if (got <= 0) fail_to_read(got < 0 ? errno : EIO);
         read += static_cast<std::size_t>(got);
     }
     return text;
