@@ -24,8 +24,7 @@ std::string step(Sweep& sweep, const Token& token, bool keep) {
     LayerSupports next = next_supports(sweep.supports.forest, token, sweep.settings);
     std::string done = keep ? packed_supports(sweep.supports) : std::string();
     sweep.supports = std::move(next);
-    const SupportForest& forest = sweep.supports.forest;
-    for (auto [e, end] = edges(forest); e != end; ++e) sweep.length += length(forest[source(*e, forest)].at - forest[target(*e, forest)].at);
+    sweep.length += length(sweep.supports.forest);
     return done;
 }
 

@@ -227,7 +227,6 @@ private:
         return gap_patches_->add_under_rim(hanging.hanging(), more) || added;
     }
 
-    /// In the first half of the rounds dots as near to the tracks as can be; what these do not reach, and what sampling missed, in another way.
     void add_patches(const std::vector<Hanging>& open, int round) {
         const std::size_t before = patches_.size();
         std::vector<Segment> loops;
@@ -235,57 +234,59 @@ private:
             for (const ToolPath& path : track.paths)
                 if (path.closed && path.kind == TrackKind::outer_perimeter) append_segments(path, loops);
         const PointLocation outline(loops, units_per_mm / 2);
-        const Unit step = settings_.support_radius - 2;
-        const auto move = [&](Point p) {
-            const Point near = nearest_material(p, before);
-            const double d = length(near - p);
-            if (d <= static_cast<double>(step)) return near;
-            const double t = static_cast<double>(step) / d;
-            return Point{p.x + round_to_lattice(t * static_cast<double>(near.x - p.x)), p.y + round_to_lattice(t * static_cast<double>(near.y - p.y))};
-        };
-        for (const Hanging& stretch : open) {
-            const Segment hanging = stretch.place();
-            const std::optional<PlacedDot> placed = round < rounds / 2 ? place(stretch) : std::nullopt;
-            if (placed && !placed->needed) continue;
-            const bool held = !placed && std::any_of(patches_.begin() + static_cast<std::ptrdiff_t>(before), patches_.end(), [&](const Patch& patch) {
-                const Segment& p = patch.segment;
-                return compare_distance(hanging.a, p, step) <= 0 && compare_distance(hanging.b, p, step) <= 0;
-            });
-            if (held) continue;
-            Segment s = hanging;
-            // Tried before without success: now just below it.
-            const bool again = std::find(tried_.begin(), tried_.end(), s.a) != tried_.end();
-            tried_.push_back(s.a);
-            if (placed) {
-                s = {placed->at, placed->at};
-            } else if (!again) {
-                const Point middle{(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2};
-                const Unit half = round_to_lattice(length(s) / 2) + 2;
-                if (half <= step) {
-                    // Short: a dot that both its ends can reach.
-                    const Point near = move(middle);
-                    const double way = length(near - middle), free = static_cast<double>(step) - static_cast<double>(half);
-                    const double t = way > free ? free / way : 1;
-                    const Point dot{middle.x + round_to_lattice(t * static_cast<double>(near.x - middle.x)), middle.y + round_to_lattice(t * static_cast<double>(near.y - middle.y))};
-                    s = {dot, dot};
-                } else {
-                    s = {move(s.a), move(s.b)};
+        for (const Hanging& hanging : open) {
+            const std::optional<Segment> place = place_under(hanging, round, before);
+            if (!place) continue;
+            const bool outside = outline.locate(place->a) == Side::outside || outline.locate(place->b) == Side::outside;
+            if (outside && may_stand_outside(*place)) {
+                patches_.push_back({*place, TrackKind::external_support});
+            } else if (gap_patches_ && patch_at_gap(hanging, round >= rounds / 2)) {
+                continue;
+            } else if (!outside) {
+                patches_.push_back({*place, TrackKind::support});
+            } else {
+                const Segment s = hanging.place();
+                for (const Point p : {s.a, s.b, Point{(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2}}) {
+                    if (outline.locate(p) == Side::outside) continue;
+                    patches_.push_back({{p, p}, TrackKind::support});
+                    break;
                 }
             }
-            TrackKind kind = TrackKind::support;
-            if ((outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) && may_stand_outside(s)) {
-                kind = TrackKind::external_support;
-            } else if (gap_patches_ && patch_at_gap(stretch, round >= rounds / 2)) {
-                continue;
-            } else if (outline.locate(s.a) == Side::outside || outline.locate(s.b) == Side::outside) {
-                const Point middle{(hanging.a.x + hanging.b.x) / 2, (hanging.a.y + hanging.b.y) / 2};
-                const Point inside = outline.locate(hanging.a) != Side::outside ? hanging.a : outline.locate(hanging.b) != Side::outside ? hanging.b : middle;
-                if (outline.locate(inside) == Side::outside) continue;
-                s = {inside, inside};
-            }
-            patches_.push_back({s, kind});
         }
     }
+
+    /// Where a patch would hold up what hangs: in the first half of the rounds a dot as near to the tracks as can be; what that does not reach,
+    /// and what sampling missed, in another way. Nothing where what is there, or a patch of this round, may hold it up.
+    std::optional<Segment> place_under(const Hanging& hanging, int round, std::size_t before) {
+        const Segment s = hanging.place();
+        const std::optional<PlacedDot> dot = round < rounds / 2 ? place(hanging) : std::nullopt;
+        if (dot ? !dot->needed : held_since(before, s)) return std::nullopt;
+        // Tried before without success: now just below it.
+        const bool again = std::find(tried_.begin(), tried_.end(), s.a) != tried_.end();
+        tried_.push_back(s.a);
+        if (dot) return Segment{dot->at, dot->at};
+        return again ? s : lowered(s, before);
+    }
+
+    bool held_since(std::size_t before, const Segment& s) const {
+        return std::any_of(patches_.begin() + static_cast<std::ptrdiff_t>(before), patches_.end(), [&](const Patch& patch) {
+            return compare_distance(s.a, patch.segment, step()) <= 0 && compare_distance(s.b, patch.segment, step()) <= 0;
+        });
+    }
+
+    /// What hangs, one layer lower: its ends moved by up to ρ towards material; where it is short, a dot that both its ends can reach.
+    Segment lowered(const Segment& s, std::size_t before) const {
+        const auto moved = [&](Point p, double most) {
+            const Point near = nearest_material(p, before), way = near - p;
+            const double d = length(way), t = d > most ? most / d : 1;
+            return p + Point{round_to_lattice(t * static_cast<double>(way.x)), round_to_lattice(t * static_cast<double>(way.y))};
+        };
+        const Unit half = round_to_lattice(length(s) / 2) + 2;
+        if (half > step()) return {moved(s.a, static_cast<double>(step())), moved(s.b, static_cast<double>(step()))};
+        const Point dot = moved({(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2}, static_cast<double>(step() - half));
+        return {dot, dot};
+    }
+    Unit step() const { return settings_.support_radius - 2; }
 
     /// With a removal gap only where walls may, and off the object's patches.
     bool may_stand_outside(const Segment& s) const { return gap_patches_ ? gap_patches_->may_stand(s) : beside_ != nullptr; }

@@ -162,8 +162,7 @@ LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportF
     d.box = bounding_box(slice.rounded);
     for (auto [v, end] = vertices(forest); v != end; ++v)
         if (forest[*v].outside) d.box.add(forest[*v].at);
-    for (auto [e, end] = edges(forest); e != end; ++e)
-        d.support_length_mm += length(forest[target(*e, forest)].at - forest[source(*e, forest)].at) / units_per_mm;
+    d.support_length_mm = length(forest) / units_per_mm;
 
     const double nozzle = to_mm(settings.nozzle);
     const Marks marks = marks_of(forest, nozzle, d);

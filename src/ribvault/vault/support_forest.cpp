@@ -10,4 +10,10 @@ SupportVertex vertex_between(const SupportVertex& a, const SupportVertex& b, Poi
     return {.at = at, .wide = a.wide || b.wide, .standing = standing};
 }
 
+double length(const SupportForest& forest) {
+    double sum = 0;
+    for (auto [e, end] = edges(forest); e != end; ++e) sum += length(forest[source(*e, forest)].at - forest[target(*e, forest)].at);
+    return sum;
+}
+
 }  // namespace ribvault

@@ -36,4 +36,7 @@ struct SupportEdge {
 using SupportForest =
     boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, SupportVertex, SupportEdge>;
 
+/// Of all walls together, lattice units.
+double length(const SupportForest& forest);
+
 }  // namespace ribvault
