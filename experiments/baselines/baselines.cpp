@@ -1,4 +1,5 @@
-// ribvault_baselines: other ways to make a print light, as JSON on the standard output. Options as in `ribvault generate`.
+// ribvault_baselines: other ways to make a print light, as JSON on the standard output. Options as in `ribvault
+// generate`.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <bit>
@@ -48,14 +49,21 @@ struct Options {
 };
 
 Json facts_json(const MeshFacts& facts) {
-    return {{"triangles", facts.triangles}, {"size_mm", facts.size_mm}, {"volume_mm3", facts.volume_mm3}, {"closed", facts.closed()}};
+    return {{"triangles", facts.triangles},
+            {"size_mm", facts.size_mm},
+            {"volume_mm3", facts.volume_mm3},
+            {"closed", facts.closed()}};
 }
 
 Json judgement_json(const Judgement& j) {
-    return {{"layers", j.layers}, {"layers_refuted", j.refuted}, {"layers_malformed", j.malformed},
-            {"layers_external", j.external}, {"unsupported_area_mm2", {j.area_lo_mm2, j.area_hi_mm2}},
+    return {{"layers", j.layers},
+            {"layers_refuted", j.refuted},
+            {"layers_malformed", j.malformed},
+            {"layers_external", j.external},
+            {"unsupported_area_mm2", {j.area_lo_mm2, j.area_hi_mm2}},
             {"worst_distance_mm", j.worst_distance_mm},
-            {"stages", {{"interval", j.stages.interval}, {"rational", j.stages.rational}, {"algebraic", j.stages.algebraic}}}};
+            {"stages",
+             {{"interval", j.stages.interval}, {"rational", j.stages.rational}, {"algebraic", j.stages.algebraic}}}};
 }
 
 /// The placed mesh as binary STL, for programs that read nothing else.
@@ -94,7 +102,8 @@ Json run(const std::string& method, const Options& o) {
     const Stack stack = slice_all(mesh, placement, settings, settings.perimeters * (support_free ? 2 : 1));
     Hollowed hollowed;
     if (method == "infill") {
-        hollowed = standard_infill(stack, o.pattern == "grid" ? Pattern::grid : Pattern::honeycomb, o.density, settings);
+        hollowed =
+            standard_infill(stack, o.pattern == "grid" ? Pattern::grid : Pattern::honeycomb, o.density, settings);
         result["infill_length_mm"] = track_length_mm(hollowed);
     } else {
         CarvingRules rules;
@@ -127,7 +136,8 @@ int main(int argc, char** argv) {
         CLI::App* command = app.add_subcommand(name, help);
         command->add_option("model", o.model)->required();
         command->add_option("-o", o.output, "place: STL to write");
-        command->add_option("--scale", o.scale), command->add_option("--height", o.height), command->add_option("--bed", o.bed);
+        command->add_option("--scale", o.scale), command->add_option("--height", o.height),
+            command->add_option("--bed", o.bed);
         command->add_option("--up", o.up)->check(CLI::IsMember({"x", "y", "z"}));
         command->add_option("--layer-height", o.layer_height), command->add_option("--nozzle", o.nozzle);
         command->add_option("--perimeters", o.perimeters), command->add_option("--top-layers", o.top_layers);

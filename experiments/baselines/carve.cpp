@@ -19,11 +19,16 @@ Region grow(const Region& region, double by) {
     ClipperLib::CleanPolygons(paths, clean);
     return from_clipper(paths);
 }
-Region without(const Region& a, const Region& b) { return a.empty() || b.empty() ? a : clip(ClipperLib::ctDifference, a, b); }
-Region united(const Region& a, const Region& b) { return a.empty() ? b : b.empty() ? a : clip(ClipperLib::ctUnion, a, b); }
+Region without(const Region& a, const Region& b) {
+    return a.empty() || b.empty() ? a : clip(ClipperLib::ctDifference, a, b);
+}
+Region united(const Region& a, const Region& b) {
+    return a.empty() ? b : b.empty() ? a : clip(ClipperLib::ctUnion, a, b);
+}
 
 /// The skeleton of a piece, as wide as fits between material within r: what opening takes away from its erosions
-/// (Lantuéjoul), without the branches of blunt corners; or only its deepest place. Empty when the piece is narrower than a track.
+/// (Lantuéjoul), without the branches of blunt corners; or only its deepest place. Empty when the piece is narrower
+/// than a track.
 Region tear_open(const Region& piece, double r, bool deepest_only) {
     const double step = r / 2;
     Region skeleton, level = piece;
@@ -68,7 +73,8 @@ private:
         double gained = 0;
         Region own, blocked;  // this round's cavity on the layer above; columns
         for (std::size_t i = stack_.slices.size(); i-- > 0;) {
-            const Region room = without(without(stack_.room[i], grow(cavity(i), static_cast<double>(rules_.wall))), blocked);
+            const Region room =
+                without(without(stack_.room[i], grow(cavity(i), static_cast<double>(rules_.wall))), blocked);
             Region grown = room.empty() || own.empty() ? Region{} : intersect(grow(own, step_), room);
             for (const Region& piece : connected_pieces(room)) {
                 if (!intersect(piece, grown).empty()) continue;
@@ -100,7 +106,8 @@ private:
             for (const Region& piece : connected_pieces(without(stack_.slices[i + 1].rounded, cavity(i + 1)))) {
                 if (!intersect(piece, below).empty() || intersect(piece, cavity(i)).empty()) continue;
                 const Box box = bounding_box(piece);
-                const Segment bridge = shortest_bridge({(box.lo.x + box.hi.x) / 2, (box.lo.y + box.hi.y) / 2}, cavity(i));
+                const Segment bridge =
+                    shortest_bridge({(box.lo.x + box.hi.x) / 2, (box.lo.y + box.hi.y) / 2}, cavity(i));
                 const double mm = length(bridge) / units_per_mm;
                 result_.hollowed.tracks[i].push_back(bridge);
                 result_.hollowed.track_volume_mm3 += mm * to_mm(settings_.nozzle) * to_mm(settings_.layer_height);
@@ -116,7 +123,8 @@ private:
         double least = HUGE_VAL;
         for (int k = 0; k < 36; ++k) {
             const double angle = k * std::numbers::pi / 36, dx = std::cos(angle), dy = std::sin(angle);
-            const double ahead = distance_to_edge(middle, dx, dy, cavity), behind = distance_to_edge(middle, -dx, -dy, cavity);
+            const double ahead = distance_to_edge(middle, dx, dy, cavity),
+                         behind = distance_to_edge(middle, -dx, -dy, cavity);
             if (ahead + behind >= least) continue;
             least = ahead + behind;
             const auto at = [&](double t) {
@@ -150,6 +158,8 @@ private:
 
 }  // namespace
 
-Carving carve(const Stack& stack, const CarvingRules& rules, const Settings& settings) { return Sweep(stack, rules, settings).run(); }
+Carving carve(const Stack& stack, const CarvingRules& rules, const Settings& settings) {
+    return Sweep(stack, rules, settings).run();
+}
 
 }  // namespace ribvault::baselines

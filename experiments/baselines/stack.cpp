@@ -9,7 +9,8 @@
 
 namespace ribvault::baselines {
 
-Placement read_placed(const std::filesystem::path& file, const PlacementOptions& options, Mesh& mesh, MeshFacts& facts) {
+Placement read_placed(const std::filesystem::path& file, const PlacementOptions& options, Mesh& mesh,
+                      MeshFacts& facts) {
     mesh = read_mesh(file);
     const Placement placement = place(mesh, options);
     facts = examine(mesh, placement);

@@ -15,13 +15,15 @@ using ClipperLib::Paths;
 
 Paths grid(const Box& box, double spacing) {
     const double cx = static_cast<double>(box.lo.x + box.hi.x) / 2, cy = static_cast<double>(box.lo.y + box.hi.y) / 2;
-    const double reach = std::hypot(static_cast<double>(box.hi.x - box.lo.x), static_cast<double>(box.hi.y - box.lo.y)) / 2;
+    const double reach =
+        std::hypot(static_cast<double>(box.hi.x - box.lo.x), static_cast<double>(box.hi.y - box.lo.y)) / 2;
     Paths lines;
     for (const double side : {1.0, -1.0})
         for (double t = -std::floor(reach / spacing) * spacing; t <= reach; t += spacing) {
             const double c = std::numbers::sqrt2 / 2, ux = c, uy = side * c, nx = -uy, ny = ux;
             const auto at = [&](double s) {
-                return ClipperLib::IntPoint(round_to_lattice(cx + t * nx + s * ux), round_to_lattice(cy + t * ny + s * uy));
+                return ClipperLib::IntPoint(round_to_lattice(cx + t * nx + s * ux),
+                                            round_to_lattice(cy + t * ny + s * uy));
             };
             lines.push_back({at(-reach), at(reach)});
         }
@@ -33,7 +35,9 @@ Paths honeycomb(const Box& box, double a) {
     const double half = a * std::numbers::sqrt3 / 2;
     const auto x0 = static_cast<double>(box.lo.x), y0 = static_cast<double>(box.lo.y);
     Paths lines;
-    const auto point = [](double x, double y) { return ClipperLib::IntPoint(round_to_lattice(x), round_to_lattice(y)); };
+    const auto point = [](double x, double y) {
+        return ClipperLib::IntPoint(round_to_lattice(x), round_to_lattice(y));
+    };
     const auto columns = static_cast<int>(static_cast<double>(box.hi.x - box.lo.x) / half) + 2;
     const auto rows = static_cast<int>(static_cast<double>(box.hi.y - box.lo.y) / (1.5 * a)) + 2;
     for (int k = 0; k < rows; ++k) {
@@ -72,7 +76,8 @@ Hollowed standard_infill(const Stack& stack, Pattern pattern, double density, co
         for (const Contour& c : slice.rounded)
             for (Point p : c) box.add(p);
     const double spacing = static_cast<double>(settings.nozzle) / density;
-    const Paths lines = pattern == Pattern::grid ? grid(box, 2 * spacing) : honeycomb(box, 2 * spacing / std::numbers::sqrt3);
+    const Paths lines =
+        pattern == Pattern::grid ? grid(box, 2 * spacing) : honeycomb(box, 2 * spacing / std::numbers::sqrt3);
     Hollowed result;
     result.tracks.resize(stack.slices.size());
     result.cavities.resize(stack.slices.size());
@@ -81,7 +86,8 @@ Hollowed standard_infill(const Stack& stack, Pattern pattern, double density, co
         if (!result.cavities[i].empty()) result.tracks[i] = cut(lines, result.cavities[i]);
     });
     for (std::size_t i = 0; i < result.tracks.size(); ++i) {
-        const double section = to_mm(settings.nozzle) * to_mm(i == 0 ? settings.first_layer_height : settings.layer_height);
+        const double section =
+            to_mm(settings.nozzle) * to_mm(i == 0 ? settings.first_layer_height : settings.layer_height);
         for (const Segment& s : result.tracks[i]) result.track_volume_mm3 += length(s) / units_per_mm * section;
     }
     return result;

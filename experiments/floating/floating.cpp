@@ -1,8 +1,8 @@
 // ribvault_floating: the layers of a run before the exact verifier and before the same checks in doubles, as JSON.
 //
 // As generated, the supports keep a slack of 1 µm, and doubles have it easy. At the threshold they do not: for each
-// layer whose supports matter, one end of one track below is moved back along its track to the last 10 nm at which equation (2)
-// still holds, and to the first at which it does not; both are asked of both.
+// layer whose supports matter, one end of one track below is moved back along its track to the last 10 nm at which
+// equation (2) still holds, and to the first at which it does not; both are asked of both.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <mutex>
@@ -17,7 +17,8 @@
 
 namespace ribvault {
 
-LayerVerdict verify_layer_floating(int upper_layer, const LayerGeometry& upper, const LayerGeometry& lower, const Settings& settings);
+LayerVerdict verify_layer_floating(int upper_layer, const LayerGeometry& upper, const LayerGeometry& lower,
+                                   const Settings& settings);
 
 namespace {
 
@@ -26,18 +27,22 @@ struct Tally {
     long thresholds = 0, threshold_false_alarms = 0, threshold_missed = 0, errors = 0;  // 10 nm on either side
 };
 
-LayerGeometry geometry(const LayerMaterial& layer) { return {layer.slice->exact.get(), &layer.cavity->region, *layer.tracks}; }
+LayerGeometry geometry(const LayerMaterial& layer) {
+    return {layer.slice->exact.get(), &layer.cavity->region, *layer.tracks};
+}
 
 /// Shortens the longest track below by `by` lattice units.
 LayerGeometry shortened(LayerGeometry lower, std::size_t track, Unit by) {
     Segment& s = lower.tracks[track];
     const double whole = length(s), t = 1 - static_cast<double>(by) / whole;
     const Point d = s.b - s.a;
-    s.b = {s.a.x + round_to_lattice(t * static_cast<double>(d.x)), s.a.y + round_to_lattice(t * static_cast<double>(d.y))};
+    s.b = {s.a.x + round_to_lattice(t * static_cast<double>(d.x)),
+           s.a.y + round_to_lattice(t * static_cast<double>(d.y))};
     return lower;
 }
 
-void compare(int layer, const LayerGeometry& above, const LayerGeometry& below, const Settings& s, long& false_alarms, long& missed, long& errors, long* refuted = nullptr) {
+void compare(int layer, const LayerGeometry& above, const LayerGeometry& below, const Settings& s, long& false_alarms,
+             long& missed, long& errors, long* refuted = nullptr) {
     const LayerVerdict truth = verify_layer(layer, above, below, s);
     LayerVerdict believed;
     try {
@@ -52,7 +57,8 @@ void compare(int layer, const LayerGeometry& above, const LayerGeometry& below, 
     if (refuted) *refuted += !internal;
 }
 
-void try_layer(int layer, const LayerGeometry& above, const LayerGeometry& below, const Settings& s, bool thresholds, Tally& tally) {
+void try_layer(int layer, const LayerGeometry& above, const LayerGeometry& below, const Settings& s, bool thresholds,
+               Tally& tally) {
     ++tally.layers;
     compare(layer, above, below, s, tally.false_alarms, tally.missed, tally.errors, &tally.refuted);
     if (!thresholds || below.tracks.empty()) return;
@@ -65,7 +71,8 @@ void try_layer(int layer, const LayerGeometry& above, const LayerGeometry& below
     while (bad - good > 1) (holds((good + bad) / 2) ? good : bad) = (good + bad) / 2;
     ++tally.thresholds;
     for (const Unit by : {good, bad})
-        compare(layer, above, shortened(below, longest, by), s, tally.threshold_false_alarms, tally.threshold_missed, tally.errors);
+        compare(layer, above, shortened(below, longest, by), s, tally.threshold_false_alarms, tally.threshold_missed,
+                tally.errors);
 }
 
 nlohmann::ordered_json run(const std::string& model, const PlacementOptions& placing, int covers, int every) {
@@ -81,17 +88,25 @@ nlohmann::ordered_json run(const std::string& model, const PlacementOptions& pla
     const auto finish = [&](const SweptLayer& swept, const LayerMaterial* below) {
         if (!below) return std::shared_ptr<void>();
         Tally one;
-        try_layer(swept.material.layer, geometry(swept.material), geometry(*below), settings, swept.material.layer % every == 0, one);
+        try_layer(swept.material.layer, geometry(swept.material), geometry(*below), settings,
+                  swept.material.layer % every == 0, one);
         const std::lock_guard lock(mutex);
-        tally.layers += one.layers, tally.refuted += one.refuted, tally.false_alarms += one.false_alarms, tally.missed += one.missed;
+        tally.layers += one.layers, tally.refuted += one.refuted, tally.false_alarms += one.false_alarms,
+            tally.missed += one.missed;
         tally.thresholds += one.thresholds, tally.threshold_false_alarms += one.threshold_false_alarms;
         tally.threshold_missed += one.threshold_missed, tally.errors += one.errors;
         return std::shared_ptr<void>();
     };
-    sweep_layers(slicer, settings, {}, 0, finish, [](const SweptLayer&, std::shared_ptr<void>) {}, [] { return false; });
-    return {{"layers", tally.layers}, {"refuted", tally.refuted}, {"false_alarms", tally.false_alarms}, {"missed", tally.missed},
-            {"thresholds", tally.thresholds}, {"threshold_false_alarms", tally.threshold_false_alarms},
-            {"threshold_missed", tally.threshold_missed}, {"errors", tally.errors}};
+    sweep_layers(
+        slicer, settings, {}, 0, finish, [](const SweptLayer&, std::shared_ptr<void>) {}, [] { return false; });
+    return {{"layers", tally.layers},
+            {"refuted", tally.refuted},
+            {"false_alarms", tally.false_alarms},
+            {"missed", tally.missed},
+            {"thresholds", tally.thresholds},
+            {"threshold_false_alarms", tally.threshold_false_alarms},
+            {"threshold_missed", tally.threshold_missed},
+            {"errors", tally.errors}};
 }
 
 }  // namespace
@@ -104,7 +119,8 @@ int main(int argc, char** argv) {
     app.add_option("model", model)->required();
     app.add_option("--scale", scale), app.add_option("--height", height);
     app.add_option("--up", up)->check(CLI::IsMember({"x", "y", "z"}));
-    app.add_option("--covers", covers, "at top and bottom"), app.add_option("--every", every, "thresholds on every n-th layer");
+    app.add_option("--covers", covers, "at top and bottom"),
+        app.add_option("--every", every, "thresholds on every n-th layer");
     CLI11_PARSE(app, argc, argv);
     try {
         ribvault::PlacementOptions placing;

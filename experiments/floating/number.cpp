@@ -10,7 +10,8 @@ Vertex lattice_vertex(Point p) {
 }
 Vertex slice_vertex(const ExactKernel::Point_2& p) {
     Vertex v;
-    v.cx = CGAL::to_double(p.x()) * static_cast<double>(units_per_mm), v.cy = CGAL::to_double(p.y()) * static_cast<double>(units_per_mm);
+    v.cx = CGAL::to_double(p.x()) * static_cast<double>(units_per_mm),
+    v.cy = CGAL::to_double(p.y()) * static_cast<double>(units_per_mm);
     v.x = v.cx, v.y = v.cy, v.slice = &p;
     return v;
 }
@@ -28,7 +29,8 @@ Vec<Algebraic> exact_point<Algebraic>(const Vertex& v) {
 }
 Interval root(const Interval& a) { return std::sqrt(std::max(a.inf(), 0.0)); }
 Rational root(const Rational& a) {
-    if (mpz_perfect_square_p(a.get_num_mpz_t()) == 0 || mpz_perfect_square_p(a.get_den_mpz_t()) == 0) throw NotRational{};
+    if (mpz_perfect_square_p(a.get_num_mpz_t()) == 0 || mpz_perfect_square_p(a.get_den_mpz_t()) == 0)
+        throw NotRational{};
     return Rational(sqrt(a.get_num()), sqrt(a.get_den()));
 }
 Algebraic root(const Algebraic& a) { return CGAL::sqrt(a); }

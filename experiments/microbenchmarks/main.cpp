@@ -1,4 +1,5 @@
-// Usage: ribvault_microbenchmarks MODEL [--height MM] [--up AXIS] [options of Google Benchmark, such as --benchmark_filter=hold]
+// Usage: ribvault_microbenchmarks MODEL [--height MM] [--up AXIS] [options of Google Benchmark, such as
+// --benchmark_filter=hold]
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>
@@ -20,7 +21,8 @@ int main(int argc, char** argv) {
     try {
         if (!height.empty()) placement.height_mm = ribvault::parse_rational(height, "--height");
         const SweptModel model = sweep_model(file, placement);
-        if (model.layers.size() < 3) throw ribvault::Error(ribvault::ErrorKind::usage, file + ": fewer than three layers; nothing to time");
+        if (model.layers.size() < 3)
+            throw ribvault::Error(ribvault::ErrorKind::usage, file + ": fewer than three layers; nothing to time");
         benchmark::AddCustomContext("model", file);
         benchmark::AddCustomContext("layers", std::to_string(model.layers.size()));
         benchmark::AddCustomContext("vertices of all slices", std::to_string(model.vertices));

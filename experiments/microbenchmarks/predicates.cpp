@@ -44,27 +44,30 @@ void lattice_predicates() {
 void stadium_predicates() {
     using namespace verify;
     static std::vector<Vertex> vertices;
-    for (const Point p : {Point{0, 0}, Point{300000, 400000}, Point{4000000, -3000000}, Point{-4000000, 3000000}, Point{650000, 0}})
+    for (const Point p :
+         {Point{0, 0}, Point{300000, 400000}, Point{4000000, -3000000}, Point{-4000000, 3000000}, Point{650000, 0}})
         vertices.push_back(lattice_vertex(p));
     // 3 : 4 : 5, in sevenths: at its distance exactly, and neither it nor the distance is a binary float.
     static const Vec<Rational> sevenths{Rational(300000, 7), Rational(400000, 7)};
     static const ExactRadius distance{Rational(500000, 7), enclosure(Rational(500000, 7))};
     vertices.push_back(rational_vertex(sevenths));
     static const CoverProblem problem{vertices, {}, {}, {}, {}, false};
-    const auto question = [](const char* name, const Candidate& candidate, const Stadium& stadium, Side answer, Stage stage) {
+    const auto question = [](const char* name, const Candidate& candidate, const Stadium& stadium, Side answer,
+                             Stage stage) {
         benchmark::RegisterBenchmark(name, [=](benchmark::State& state) {
             const CGAL::Protect_FPU_rounding<true> upward;
             for (auto _ : state) {
                 Located v = located(problem, candidate);
-                if (side_of_stadium(v, stadium, Stage::algebraic) != answer || v.stage != stage) throw std::logic_error(name);
+                if (side_of_stadium(v, stadium, Stage::algebraic) != answer || v.stage != stage)
+                    throw std::logic_error(name);
                 benchmark::DoNotOptimize(v);
             }
         });
     };
     Candidate far, on, meeting;
     far.vertex = 4, on.vertex = 5;
-    // The circles of radius 3 mm around (0, 0) and (3, 4) meet where coordinates are irrational, on their bisector: on the side of the
-    // stadium of radius 2.5 mm around its parallel through (0, 0).
+    // The circles of radius 3 mm around (0, 0) and (3, 4) meet where coordinates are irrational, on their bisector: on
+    // the side of the stadium of radius 2.5 mm around its parallel through (0, 0).
     meeting.kind = Candidate::Kind::meeting;
     meeting.root = 1;
     meeting.first = {false, 0, 0, 0, 300000.0, false};

@@ -21,11 +21,14 @@ SweptModel sweep_model(const std::filesystem::path& file, const PlacementOptions
         layer.swept = swept;
         layer.eroded = erode_slice(*swept.material.slice, model.settings);
         layer.shell.layer = swept.material.layer;
-        append_shell_paths(*swept.material.slice, swept.material.cavity->region, model.settings, model.tracks, layer.shell);
+        append_shell_paths(*swept.material.slice, swept.material.cavity->region, model.settings, model.tracks,
+                           layer.shell);
         for (const Contour& contour : swept.material.slice->rounded) layer.vertices += contour.size();
         return nullptr;
     };
-    sweep_layers(*model.slicer, model.settings, model.tracks, 0, keep, [](const SweptLayer&, std::shared_ptr<void>) {}, [] { return false; });
+    sweep_layers(
+        *model.slicer, model.settings, model.tracks, 0, keep, [](const SweptLayer&, std::shared_ptr<void>) {},
+        [] { return false; });
     for (std::size_t k = 0; k < model.layers.size(); ++k) {
         model.vertices += model.layers[k].vertices;
         if (k + 1 == model.layers.size()) continue;

@@ -13,7 +13,8 @@ constexpr int field_columns = 240;  // of the distance fields, along the cavity'
 
 std::vector<Segment> walls_of(const SupportForest& forest) {
     std::vector<Segment> walls;
-    for (auto [e, end] = edges(forest); e != end; ++e) walls.push_back({forest[source(*e, forest)].at, forest[target(*e, forest)].at});
+    for (auto [e, end] = edges(forest); e != end; ++e)
+        walls.push_back({forest[source(*e, forest)].at, forest[target(*e, forest)].at});
     return walls;
 }
 
@@ -21,7 +22,8 @@ Unit rounded(const SquaredDistance& d) { return round_to_lattice(std::sqrt(d.val
 
 /// Equation (4) for one vertex: does it attract?
 bool attracts(std::size_t v, const SupportForest& forest, const Settings& s) {
-    return s.branch_bonus && out_degree(v, forest) > 0 && out_degree(v, forest) < static_cast<std::size_t>(s.valence_limit);
+    return s.branch_bonus && out_degree(v, forest) > 0 &&
+           out_degree(v, forest) < static_cast<std::size_t>(s.valence_limit);
 }
 
 class Replay {
@@ -35,7 +37,9 @@ public:
     }
 
     /// A wall's new vertex was not covered when it was added; a root lies on the shell, a split point on a wall.
-    bool is_tip(const SupportVertex& vertex) const { return !vertex.root && !growing_.covers(vertex.at, static_cast<double>(settings_.nozzle) / 2); }
+    bool is_tip(const SupportVertex& vertex) const {
+        return !vertex.root && !growing_.covers(vertex.at, static_cast<double>(settings_.nozzle) / 2);
+    }
 
     Json add(Point p) {
         const SupportForest before = forest();
@@ -87,12 +91,18 @@ Json fields_json(const SupportForest& forest, const CavityBoundary& boundary, co
             if (!walls.empty()) to_both = std::min(to_both, rounded(nearest_wall.nearest(p).distance));
             for (auto [v, end] = vertices(forest); v != end; ++v)
                 if (attracts(*v, forest, settings))
-                    to_both = std::min(to_both, round_to_lattice(length(forest[*v].at - p)) - settings.branch_bonus_length);
+                    to_both =
+                        std::min(to_both, round_to_lattice(length(forest[*v].at - p)) - settings.branch_bonus_length);
             shell.push_back(to_shell), both.push_back(to_both);
         }
     }
-    return {{"origin", json_of({box.lo.x + pitch / 2, box.lo.y + pitch / 2})}, {"pitch", pitch}, {"columns", columns}, {"rows", rows},
-            {"shell", shell}, {"both", both}, {"supports", json_of(forest)}};
+    return {{"origin", json_of({box.lo.x + pitch / 2, box.lo.y + pitch / 2})},
+            {"pitch", pitch},
+            {"columns", columns},
+            {"rows", rows},
+            {"shell", shell},
+            {"both", both},
+            {"supports", json_of(forest)}};
 }
 
 /// The same vertices and walls in the same order (flags that the layer below decides left out).
@@ -100,12 +110,14 @@ bool same(const SupportForest& a, const SupportForest& b) {
     if (num_vertices(a) != num_vertices(b)) return false;
     for (auto [v, end] = vertices(a); v != end; ++v)
         if (a[*v].at != b[*v].at || a[*v].root != b[*v].root) return false;
-    return std::ranges::equal(walls_of(a), walls_of(b), [](const Segment& s, const Segment& t) { return s.a == t.a && s.b == t.b; });
+    return std::ranges::equal(walls_of(a), walls_of(b),
+                              [](const Segment& s, const Segment& t) { return s.a == t.a && s.b == t.b; });
 }
 
 }  // namespace
 
-Json growth_json(const SupportForest& propagated, const SupportForest& grown, const CavityBoundary& boundary, const Settings& settings) {
+Json growth_json(const SupportForest& propagated, const SupportForest& grown, const CavityBoundary& boundary,
+                 const Settings& settings) {
     Replay replay(propagated, boundary, settings);
     Json walls = Json::array();
     std::vector<SupportForest> states{replay.forest()};
@@ -114,7 +126,8 @@ Json growth_json(const SupportForest& propagated, const SupportForest& grown, co
         walls.push_back(replay.add(grown[v].at));
         states.push_back(replay.forest());
     }
-    if (!same(states.back(), grown)) throw std::logic_error("growth: the walls added again are not those that were grown");
+    if (!same(states.back(), grown))
+        throw std::logic_error("growth: the walls added again are not those that were grown");
     return {{"walls", walls}, {"fields", fields_json(states[states.size() / 2], boundary, settings)}};
 }
 

@@ -15,7 +15,8 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* help, Options
     CLI::App* command = app.add_subcommand(name, help);
     command->add_option("model", o.model)->required();
     command->add_option("-o", o.output, "JSON file to write")->required();
-    command->add_option("--scale", o.scale), command->add_option("--height", o.height), command->add_option("--bed", o.bed);
+    command->add_option("--scale", o.scale), command->add_option("--height", o.height),
+        command->add_option("--bed", o.bed);
     command->add_option("--up", o.up)->check(CLI::IsMember({"x", "y", "z"}));
     command->add_option("--layer-height", o.layer_height);
     command->add_option("--top-layers", o.top_layers), command->add_option("--bottom-layers", o.bottom_layers);
@@ -39,7 +40,8 @@ int main(int argc, char** argv) {
     Options o;
     int from = 0, to = -1, layer = -1, branches = 7;
     CLI::App* all = add_command(app, "layers", "slices, supports and paths of a run", o);
-    all->add_option("--from", from, "lowest layer (default 0)"), all->add_option("--to", to, "highest layer (default: the top)");
+    all->add_option("--from", from, "lowest layer (default 0)"),
+        all->add_option("--to", to, "highest layer (default: the top)");
     CLI::App* one = add_command(app, "stages", "from one layer to the next, stage by stage", o);
     one->add_option("--layer", layer, "the lower layer (default: where Copy clips and prolongs most)");
     CLI::App* tree_command = add_command(app, "tree", "straightening and printing of one tree", o);

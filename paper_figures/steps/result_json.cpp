@@ -52,7 +52,10 @@ Json json_of(const SupportForest& forest) {
 Json json_of(const std::vector<ToolPath>& paths) {
     Json list = Json::array();
     for (const ToolPath& path : paths)
-        list.push_back({{"kind", name_of(path.kind)}, {"width", path.width}, {"closed", path.closed}, {"points", flat(path.points)}});
+        list.push_back({{"kind", name_of(path.kind)},
+                        {"width", path.width},
+                        {"closed", path.closed},
+                        {"points", flat(path.points)}});
     return list;
 }
 
@@ -60,10 +63,18 @@ Json result_head(const std::string& kind, const Options& options, const Settings
     return {{"schema", "ribvault-" + kind + "/1"},
             {"model", std::filesystem::path(options.model).filename().string()},
             {"units_per_mm", units_per_mm},
-            {"settings", {{"layer_height", s.layer_height}, {"nozzle", s.nozzle}, {"support_radius", s.support_radius},
-                          {"erosion_step", s.erosion_step}, {"straighten_step", s.straighten_step}, {"straighten", s.straighten},
-                          {"branch_bonus", s.branch_bonus ? s.branch_bonus_length : 0}, {"valence_limit", s.valence_limit},
-                          {"top_layers", s.top_layers}, {"bottom_layers", s.bottom_layers}, {"seed", s.seed}}}};
+            {"settings",
+             {{"layer_height", s.layer_height},
+              {"nozzle", s.nozzle},
+              {"support_radius", s.support_radius},
+              {"erosion_step", s.erosion_step},
+              {"straighten_step", s.straighten_step},
+              {"straighten", s.straighten},
+              {"branch_bonus", s.branch_bonus ? s.branch_bonus_length : 0},
+              {"valence_limit", s.valence_limit},
+              {"top_layers", s.top_layers},
+              {"bottom_layers", s.bottom_layers},
+              {"seed", s.seed}}}};
 }
 
 }  // namespace ribvault::steps

@@ -21,7 +21,8 @@ Json json_of(const SupportForest& forest);
 /// In printing order: {"kind", "width", "closed", "points": [x0, y0, ...]}
 Json json_of(const std::vector<ToolPath>& paths);
 
-/// The head of a result file: "schema" (`kind`/version), model, settings; coordinates and lengths are lattice units unless a name ends in _mm.
+/// The head of a result file: "schema" (`kind`/version), model, settings; coordinates and lengths are lattice units
+/// unless a name ends in _mm.
 Json result_head(const std::string& kind, const Options& options, const Settings& settings);
 
 }  // namespace ribvault::steps

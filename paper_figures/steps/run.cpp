@@ -37,22 +37,25 @@ Run sweep(const Options& options, int first) {
     const Placement placement = baselines::read_placed(options.model, options.placement(), mesh, facts);
     const Slicer slicer(mesh, placement, run.settings);
     if (first < 0 || first >= slicer.layer_count())
-        throw Error(ErrorKind::usage, "layer " + std::to_string(first) + ": the model has the layers 0 to " + std::to_string(slicer.layer_count() - 1));
+        throw Error(ErrorKind::usage, "layer " + std::to_string(first) + ": the model has the layers 0 to " +
+                                          std::to_string(slicer.layer_count() - 1));
     const auto keep = [&](const SweptLayer& layer, std::shared_ptr<void>) {
         if (layer.material.layer >= first) run.layers.push_back(layer);
     };
     const auto nothing = [](const SweptLayer&, const LayerMaterial*) { return std::shared_ptr<void>(); };
     sweep_layers(slicer, run.settings, {}, 0, nothing, keep, [] { return false; });
     std::reverse(run.layers.begin(), run.layers.end());
-    for (const SweptLayer& layer : run.layers) run.plane_heights_mm.push_back(slicer.plane_height(layer.material.layer).get_d());
+    for (const SweptLayer& layer : run.layers)
+        run.plane_heights_mm.push_back(slicer.plane_height(layer.material.layer).get_d());
     return run;
 }
 
 const SweptLayer& layer_of(const Run& run, int layer) {
     for (const SweptLayer& l : run.layers)
         if (l.material.layer == layer) return l;
-    throw Error(ErrorKind::usage, "--layer " + std::to_string(layer) + ": the model has the layers " + std::to_string(run.layers.front().material.layer) +
-                                      " to " + std::to_string(run.layers.back().material.layer));
+    throw Error(ErrorKind::usage, "--layer " + std::to_string(layer) + ": the model has the layers " +
+                                      std::to_string(run.layers.front().material.layer) + " to " +
+                                      std::to_string(run.layers.back().material.layer));
 }
 
 }  // namespace ribvault::steps

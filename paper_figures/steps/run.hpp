@@ -28,8 +28,8 @@ struct Run {
     std::vector<double> plane_heights_mm;  ///< z_i
 };
 
-/// Everything from `first` up; the layers below are swept too, but not kept. Throws as the library's parts do, and Error (usage)
-/// when the model has no layer `first`.
+/// Everything from `first` up; the layers below are swept too, but not kept. Throws as the library's parts do, and
+/// Error (usage) when the model has no layer `first`.
 Run sweep(const Options& options, int first = 0);
 
 /// The layer with this number. Throws Error (usage) naming the option `--layer` when there is none.

@@ -11,7 +11,9 @@
 namespace ribvault::steps {
 namespace {
 
-Segment segment_of(const SupportForest& forest, SupportForest::edge_descriptor e) { return {forest[source(e, forest)].at, forest[target(e, forest)].at}; }
+Segment segment_of(const SupportForest& forest, SupportForest::edge_descriptor e) {
+    return {forest[source(e, forest)].at, forest[target(e, forest)].at};
+}
 
 struct CopyAmounts {
     double clipped = 0, prolonged = 0;  ///< lattice units
@@ -28,7 +30,8 @@ CopyAmounts amounts(const SweptLayer& above, const SweptLayer& here, const Setti
     for (auto [e, end] = edges(above.forest); e != end; ++e) sum.clipped += length(segment_of(above.forest, *e));
     std::size_t k = 0;
     for (auto [e, end] = edges(copied.forest); e != end; ++e, ++k)
-        (copied.origin[k] < 0 ? sum.prolonged : sum.clipped) += (copied.origin[k] < 0 ? 1 : -1) * length(segment_of(copied.forest, *e));
+        (copied.origin[k] < 0 ? sum.prolonged : sum.clipped) +=
+            (copied.origin[k] < 0 ? 1 : -1) * length(segment_of(copied.forest, *e));
     return sum;
 }
 
@@ -37,9 +40,11 @@ int most_copied(const Run& run) {
     double most = 0;
     for (std::size_t k = 0; k + 1 < run.layers.size(); ++k) {
         const CopyAmounts a = amounts(run.layers[k + 1], run.layers[k], run.settings);
-        if (std::min(a.clipped, a.prolonged) > most) most = std::min(a.clipped, a.prolonged), best = run.layers[k].material.layer;
+        if (std::min(a.clipped, a.prolonged) > most)
+            most = std::min(a.clipped, a.prolonged), best = run.layers[k].material.layer;
     }
-    if (best < 0) throw Error(ErrorKind::usage, "no layer of this model both clips and prolongs supports; name one with --layer");
+    if (best < 0)
+        throw Error(ErrorKind::usage, "no layer of this model both clips and prolongs supports; name one with --layer");
     return best;
 }
 
@@ -64,7 +69,8 @@ Json stages(const Options& options, int layer) {
     const CopiedSupports copied = copy_down(above, boundary, s);
     const ErodedSupports eroded = erode_supports(copied.forest, s.erosion_step);
     SupportForest propagated = eroded.forest;
-    if (s.straighten) propagated = straighten_supports(eroded.forest, eroded.pinned, boundary, s.straighten_step).forest;
+    if (s.straighten)
+        propagated = straighten_supports(eroded.forest, eroded.pinned, boundary, s.straighten_step).forest;
 
     Json result = result_head("stages", options, s);
     result["layer"] = layer;

@@ -19,7 +19,8 @@ SupportForest subforest(const SupportForest& forest, const std::vector<char>& ch
     for (Vertex v = 0; v < place.size(); ++v)
         if (chosen[v]) place[v] = add_vertex(forest[v], part);
     for (auto [e, end] = edges(forest); e != end; ++e)
-        if (chosen[source(*e, forest)] && chosen[target(*e, forest)]) add_edge(place[source(*e, forest)], place[target(*e, forest)], forest[*e], part);
+        if (chosen[source(*e, forest)] && chosen[target(*e, forest)])
+            add_edge(place[source(*e, forest)], place[target(*e, forest)], forest[*e], part);
     return part;
 }
 
@@ -38,13 +39,16 @@ SupportForest choose_tree(const SupportForest& forest, int branches, int layer) 
         t.tips += !forest[v].root && out_degree(v, forest) == 1;
     }
     for (auto [e, end] = edges(forest); e != end; ++e)
-        trees[static_cast<std::size_t>(component[source(*e, forest)])].length += length(forest[source(*e, forest)].at - forest[target(*e, forest)].at);
+        trees[static_cast<std::size_t>(component[source(*e, forest)])].length +=
+            length(forest[source(*e, forest)].at - forest[target(*e, forest)].at);
     int best = -1;
     for (int k = 0; k < count; ++k) {
         const Tree& t = trees[static_cast<std::size_t>(k)];
         if (t.roots != 1 || t.tips == 0) continue;
         const auto off = [&](int tree) { return std::abs(trees[static_cast<std::size_t>(tree)].tips - branches); };
-        if (best < 0 || off(k) < off(best) || (off(k) == off(best) && t.length > trees[static_cast<std::size_t>(best)].length)) best = k;
+        if (best < 0 || off(k) < off(best) ||
+            (off(k) == off(best) && t.length > trees[static_cast<std::size_t>(best)].length))
+            best = k;
     }
     if (best < 0) throw Error(ErrorKind::usage, "--layer " + std::to_string(layer) + ": has no tree with one root");
     std::vector<char> chosen(component.size());

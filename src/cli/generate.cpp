@@ -48,44 +48,71 @@ void add_geometry(CLI::App* command, Written& w) {
     group->add_option("--bottom-layers", s.bottom_layers, "solid layers over every floor (default 1)");
     add_length(group, "--max-gap", s.max_gap, "close open contours over gaps up to this (default 0.05)");
     const auto outside = command->add_option_group("External supports (Section 6)");
-    outside->add_option_function<std::string>(
-        "--support", [&s](const std::string& name) { s.support = name == "external" ? Support::external : name == "both" ? Support::both : Support::internal; },
-        "internal: hollow, supports in the cavities; external: solid, supports outside; both (default internal)")
-        ->check(CLI::IsMember({"internal", "external", "both"}))->type_name("NAME");
-    add_length(outside, "--support-gap", s.support_gap, "keep external supports this far off the object, in plane (default 0)");
-    outside->add_option("--support-gap-layers", s.support_gap_layers, "leave so many layers empty between them and what they hold up (default 0)");
+    outside
+        ->add_option_function<std::string>(
+            "--support",
+            [&s](const std::string& name) {
+                s.support = name == "external" ? Support::external : name == "both" ? Support::both : Support::internal;
+            },
+            "internal: hollow, supports in the cavities; external: solid, supports outside; both (default internal)")
+        ->check(CLI::IsMember({"internal", "external", "both"}))
+        ->type_name("NAME");
+    add_length(outside, "--support-gap", s.support_gap,
+               "keep external supports this far off the object, in plane (default 0)");
+    outside->add_option("--support-gap-layers", s.support_gap_layers,
+                        "leave so many layers empty between them and what they hold up (default 0)");
     outside->add_flag("--bed-only", s.bed_only, "they stand on the bed, nowhere on the object");
-    add_length(outside, "--pillar-length", s.pillar_length, "track on every layer of a tree that stands free (default 4)");
+    add_length(outside, "--pillar-length", s.pillar_length,
+               "track on every layer of a tree that stands free (default 4)");
     const auto supports = command->add_option_group("Supports (Sections 4.1 to 4.3)");
     const auto radius = supports->add_option_function<std::string>(
         "--support-radius", [&w](const std::string& t) { w.support_radius = parse_length(t, "--support-radius"); },
         "rho of equation (2) (default: half the nozzle)")->type_name("MM");
-    supports->add_option_function<std::string>(
-        "--overlap", [&w](const std::string& t) { w.overlap = parse_rational(t, "--overlap"); },
-        "share of a track that must rest on the layer below; rho = (1 - R) d (default 0.5)")->type_name("R")->excludes(radius);
+    supports
+        ->add_option_function<std::string>(
+            "--overlap", [&w](const std::string& t) { w.overlap = parse_rational(t, "--overlap"); },
+            "share of a track that must rest on the layer below; rho = (1 - R) d (default 0.5)")
+        ->type_name("R")
+        ->excludes(radius);
     supports->add_option_function<std::string>(
         "--strategy", [&s](const std::string& name) { choose_strategy(name, s); },
         "paper: Sections 4.1 to 4.3; thrifty: less material under the same proof (default paper)")
         ->check(CLI::IsMember({"paper", "thrifty"}))->type_name("NAME");
-    supports->add_option_function<std::string>(
-        "--gaps", [&s](const std::string& name) { s.gaps = name == "paper" ? Gaps::paper : name == "none" ? Gaps::none : Gaps::proved; },
-        "at junctions (Section 4.4): proved: where the print is supported with them; paper: all; none (default proved)")
-        ->check(CLI::IsMember({"proved", "paper", "none"}))->type_name("NAME");
-    supports->add_flag_function("--no-shrink", [&s](std::int64_t) { s.propagation = Propagation::erode_straighten; }, "thrifty without its descent of length");
-    supports->add_flag_function("--no-trim", [&s](std::int64_t) { s.trim = false; }, "thrifty without trimming new walls");
-    supports->add_option_function<std::string>(
-        "--narrow-bonus", [&s](const std::string& name) { s.choose_bonus = name == "chosen", s.narrow_bonus = name != "whole"; },
-        "equation (4)'s bonus in narrow places: half, whole, or chosen: what takes less (default whole, thrifty: chosen)")
-        ->check(CLI::IsMember({"half", "whole", "chosen"}))->type_name("NAME");
+    supports
+        ->add_option_function<std::string>(
+            "--gaps",
+            [&s](const std::string& name) {
+                s.gaps = name == "paper" ? Gaps::paper : name == "none" ? Gaps::none : Gaps::proved;
+            },
+            "at junctions (Section 4.4): proved: where the print is supported with them; paper: all; none (default "
+            "proved)")
+        ->check(CLI::IsMember({"proved", "paper", "none"}))
+        ->type_name("NAME");
+    supports->add_flag_function(
+        "--no-shrink", [&s](std::int64_t) { s.propagation = Propagation::erode_straighten; },
+        "thrifty without its descent of length");
+    supports->add_flag_function(
+        "--no-trim", [&s](std::int64_t) { s.trim = false; }, "thrifty without trimming new walls");
+    supports
+        ->add_option_function<std::string>(
+            "--narrow-bonus",
+            [&s](const std::string& name) { s.choose_bonus = name == "chosen", s.narrow_bonus = name != "whole"; },
+            "equation (4)'s bonus in narrow places: half, whole, or chosen: what takes less (default whole, thrifty: "
+            "chosen)")
+        ->check(CLI::IsMember({"half", "whole", "chosen"}))
+        ->type_name("NAME");
     supports->add_option("--tries", s.tries, "seeds to try; the one that takes the least is used (default 1)");
-    supports->add_flag_function("--no-doubling", [&s](std::int64_t) { s.order = Order::distance; }, "thrifty with the paper's order of points");
+    supports->add_flag_function(
+        "--no-doubling", [&s](std::int64_t) { s.order = Order::distance; }, "thrifty with the paper's order of points");
     supports->add_flag("--length-bound", s.length_bound, "report how short any supports could be at least");
     add_length(supports, "--erosion-step", w.erosion_step, "what a free tip loses per layer (default: rho)");
     supports->add_flag("--no-straighten", w.no_straighten, "leave out the straightening operator");
     supports->add_option("--wall-lines", s.wall_lines, "tracks side by side in long or tall walls (default 1)");
-    add_length(supports, "--wall-lines-longer", s.wall_lines_longer, "what is long, from the root to the farthest tip (default 10)");
+    add_length(supports, "--wall-lines-longer", s.wall_lines_longer,
+               "what is long, from the root to the farthest tip (default 10)");
     add_length(supports, "--wall-lines-taller", s.wall_lines_taller, "what is tall (default 10)");
-    supports->add_flag("--pillars", s.pillars, "trees stand free where that takes less track down to the bed (Section 5.4)");
+    supports->add_flag("--pillars", s.pillars,
+                       "trees stand free where that takes less track down to the bed (Section 5.4)");
     add_length(supports, "--brace", s.brace, "trees that reach farther than this get a second root (default: none do)");
     add_length(supports, "--straighten-step", w.straighten_step, "how far a vertex moves per layer (default: rho)");
     supports->add_flag("--no-branch-bonus", w.no_branch_bonus, "leave out the heuristic of equation (4)");
@@ -104,7 +131,8 @@ void add_placement(CLI::App* command, Written& w) {
     group->add_option_function<std::string>(
         "--height", [&w](const std::string& t) { w.job.placement.height_mm = parse_rational(t, "--height"); },
         "scale the model to this height")->type_name("MM")->excludes(scale);
-    group->add_option("--rotate", w.rotate, "turn about the axes, in degrees (multiples of 90 are exact)")->type_name("X,Y,Z");
+    group->add_option("--rotate", w.rotate, "turn about the axes, in degrees (multiples of 90 are exact)")
+        ->type_name("X,Y,Z");
     group->add_option("--up", w.up, "the model's axis that points up")->check(CLI::IsMember({"x", "y", "z"}));
     group->add_option_function<std::string>("--bed", [&w](const std::string& text) {
         PrinterSettings& p = w.job.printer;
@@ -122,7 +150,9 @@ void set_rotation(Written& w) {
         parts.push_back(w.rotate.substr(from, comma - from));
         from = comma + 1;
     }
-    if (parts.size() != 3) throw Error(ErrorKind::usage, "--rotate: '" + w.rotate + "' is not three angles; write for example --rotate 90,0,0");
+    if (parts.size() != 3)
+        throw Error(ErrorKind::usage,
+                    "--rotate: '" + w.rotate + "' is not three angles; write for example --rotate 90,0,0");
     for (std::size_t k = 0; k < 3; ++k) w.job.placement.rotate_degrees[k] = parse_rational(parts[k], "--rotate");
 }
 
@@ -132,9 +162,12 @@ void complete(Written& w) {
     s.first_layer_height = w.first_layer_height.value_or(s.layer_height);
     s.support_radius = w.support_radius.value_or(s.nozzle / 2);
     if (w.overlap) {
-        if (*w.overlap < 0 || *w.overlap >= 1) throw Error(ErrorKind::usage, "--overlap must be a share of a track's width, from 0 to less than 1");
+        if (*w.overlap < 0 || *w.overlap >= 1)
+            throw Error(ErrorKind::usage, "--overlap must be a share of a track's width, from 0 to less than 1");
         const Rational radius = (1 - *w.overlap) * s.nozzle;
-        if (radius.get_den() != 1) throw Error(ErrorKind::usage, "--overlap: (1 - R) times the nozzle does not lie on the 10 nm lattice; use fewer decimals");
+        if (radius.get_den() != 1)
+            throw Error(ErrorKind::usage,
+                        "--overlap: (1 - R) times the nozzle does not lie on the 10 nm lattice; use fewer decimals");
         s.support_radius = radius.get_num().get_si();
     }
     s.erosion_step = w.erosion_step.value_or(s.support_radius);
@@ -150,7 +183,9 @@ void complete(Written& w) {
     w.job.placement.bed_z = w.job.printer.bed_z;
     w.job.placement.origin_at_centre = w.job.printer.origin_at_centre;
     w.job.model = w.model;
-    const auto path = [](const std::string& text) { return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text); };
+    const auto path = [](const std::string& text) {
+        return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text);
+    };
     w.job.gcode = path(w.gcode), w.job.report = path(w.report), w.job.svg = path(w.svg), w.job.mesh = path(w.mesh);
     w.job.layers = path(w.layers), w.job.html = path(w.html);
 }
@@ -178,7 +213,8 @@ int run(Written& w) {
 
 std::function<int()> add_generate(CLI::App& app) {
     const auto written = std::make_shared<Written>();
-    CLI::App* command = app.add_subcommand("generate", "Hollow a mesh, grow ribbed supports, prove every layer, write G-code");
+    CLI::App* command =
+        app.add_subcommand("generate", "Hollow a mesh, grow ribbed supports, prove every layer, write G-code");
     command->add_option("model", written->model, "STL, OBJ, OFF, PLY or 3MF")->required();
     command->add_option("-o,--output", written->gcode, "G-code to write")->type_name("FILE");
     command->add_option("--report", written->report, "JSON report to write")->type_name("FILE");

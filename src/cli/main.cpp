@@ -7,9 +7,11 @@
 
 int main(int argc, char** argv) {
     using namespace ribvault;
-    CLI::App app{"ribvault: hollow 3D prints with ribbed support vaults, proved layer by layer.\n"
-                 "Exit codes: 0 proved (verify: supported), 1 not proved (verify: not supported), 2 wrong option, 3 input unreadable,\n"
-                 "4 input is not a solid, 5 does not fit the bed, 6 cannot write, 130 interrupted."};
+    CLI::App app{
+        "ribvault: hollow 3D prints with ribbed support vaults, proved layer by layer.\n"
+        "Exit codes: 0 proved (verify: supported), 1 not proved (verify: not supported), 2 wrong option, 3 input "
+        "unreadable,\n"
+        "4 input is not a solid, 5 does not fit the bed, 6 cannot write, 130 interrupted."};
     app.set_version_flag("--version", std::string("ribvault ") + RIBVAULT_VERSION);
     app.require_subcommand(1);
     std::map<const CLI::App*, std::function<int()>> run;

@@ -41,7 +41,11 @@ std::function<int()> add_page(CLI::App& app) {
     const auto written = std::make_shared<Written>();
     CLI::App* command = app.add_subcommand("page", "One HTML file to look at a run, or at two side by side");
     command->get_formatter()->column_width(38);
-    command->add_option("run", written->runs, "layers files of `generate --layers`, or G-code of any slicer, judged as by `verify`")->required()->expected(1, 2);
+    command
+        ->add_option("run", written->runs,
+                     "layers files of `generate --layers`, or G-code of any slicer, judged as by `verify`")
+        ->required()
+        ->expected(1, 2);
     command->add_option("-o,--output", written->page, "page to write")->required()->type_name("FILE");
     add_rules(command, written->rules);
     command->add_option("--threads", written->rules.threads, "0: all processors")->check(CLI::Range(0, 1024));

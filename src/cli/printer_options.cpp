@@ -26,8 +26,8 @@ void import(const std::string& file, Job& job, std::optional<Unit>& first_layer_
     if (s.first_layer_height > 0) first_layer_height = s.first_layer_height;
     std::string list;
     for (const std::string& key : imported.ignored) (list += list.empty() ? "" : ", ") += key;
-    std::fprintf(stderr, "%s: %zu settings taken, %zu ignored%s%s\n", file.c_str(), imported.taken.size(), imported.ignored.size(),
-                 list.empty() ? "" : ": ", list.c_str());
+    std::fprintf(stderr, "%s: %zu settings taken, %zu ignored%s%s\n", file.c_str(), imported.taken.size(),
+                 imported.ignored.size(), list.empty() ? "" : ": ", list.c_str());
 }
 
 template <class Target>
@@ -41,8 +41,11 @@ void add_length(CLI::App* command, const std::string& name, Target& target, cons
 void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_height) {
     std::string names;
     for (const BuiltinProfile& profile : builtin_profiles()) (names += names.empty() ? "" : ", ") += profile.name;
-    const auto printer = command->add_option_function<std::string>(
-        "--printer", [&job](const std::string& name) { job.printer = builtin_profile(name); }, "a built-in profile: " + names)->type_name("NAME");
+    const auto printer = command
+                             ->add_option_function<std::string>(
+                                 "--printer", [&job](const std::string& name) { job.printer = builtin_profile(name); },
+                                 "a built-in profile: " + names)
+                             ->type_name("NAME");
     const auto profile = command->add_option_function<std::string>(
         "--profile", [&job](const std::string& file) { job.printer = read_profile(text_of(file), file); },
         "a printer profile (docs/printing.md)")->type_name("FILE")->excludes(printer);
@@ -57,15 +60,24 @@ void add_tracks(CLI::App* command, TrackSettings& t) {
     group->add_flag_callback("--shell-first", [&t] { t.alternate = false; },
                              "perimeters first on every layer; by default last on odd ones, which saves travel");
     group->add_option("--covers", t.covers, "zigzag, monotonic or concentric (default zigzag)")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, CoverPattern>{
-            {"zigzag", CoverPattern::zigzag}, {"monotonic", CoverPattern::monotonic}, {"concentric", CoverPattern::concentric}}))->type_name("HOW");
+        ->transform(
+            CLI::CheckedTransformer(std::map<std::string, CoverPattern>{{"zigzag", CoverPattern::zigzag},
+                                                                        {"monotonic", CoverPattern::monotonic},
+                                                                        {"concentric", CoverPattern::concentric}}))
+        ->type_name("HOW");
     group->add_option("--seam", t.seam, "where outer perimeters begin: aligned, corner or nearest (default aligned)")
-        ->transform(CLI::CheckedTransformer(
-            std::map<std::string, Seam>{{"aligned", Seam::aligned}, {"corner", Seam::corner}, {"nearest", Seam::nearest}}))->type_name("WHERE");
-    group->add_flag_callback("--no-thin-walls", [&t] { t.thin_walls = false; }, "no tracks where the slice is narrower than one");
-    group->add_flag_function("--no-fill-gaps", [&t](std::int64_t) { t.fill_gaps = false; }, "no tracks in strips of the shell that are too narrow for covers");
-    add_length(group, "--resolution", t.resolution, "tool paths follow slices within this (default 0.005; 0: every vertex)");
-    add_length(group, "--first-layer-width", t.first_layer_width, "of perimeters and covers on layer 0 (default: the nozzle)");
+        ->transform(CLI::CheckedTransformer(std::map<std::string, Seam>{
+            {"aligned", Seam::aligned}, {"corner", Seam::corner}, {"nearest", Seam::nearest}}))
+        ->type_name("WHERE");
+    group->add_flag_callback(
+        "--no-thin-walls", [&t] { t.thin_walls = false; }, "no tracks where the slice is narrower than one");
+    group->add_flag_function(
+        "--no-fill-gaps", [&t](std::int64_t) { t.fill_gaps = false; },
+        "no tracks in strips of the shell that are too narrow for covers");
+    add_length(group, "--resolution", t.resolution,
+               "tool paths follow slices within this (default 0.005; 0: every vertex)");
+    add_length(group, "--first-layer-width", t.first_layer_width,
+               "of perimeters and covers on layer 0 (default: the nozzle)");
     group->add_option("--skirt", t.skirt_loops, "loops around the first layer (default 0)");
     add_length(group, "--skirt-distance", t.skirt_distance, "from the object to the skirt (default 3)");
     add_length(group, "--brim", t.brim_width, "width of the brim on the first layer (default 0)");
@@ -75,12 +87,16 @@ void add_printer(CLI::App* command, PrinterSettings& p) {
     const auto group = command->add_option_group("Printer");
     group->add_option("--flavour", p.flavour, "marlin, klipper or reprapfirmware (default marlin)")
         ->transform(CLI::CheckedTransformer(std::map<std::string, Flavour>{
-            {"marlin", Flavour::marlin}, {"klipper", Flavour::klipper}, {"reprapfirmware", Flavour::reprapfirmware}}))->type_name("WHOSE");
+            {"marlin", Flavour::marlin}, {"klipper", Flavour::klipper}, {"reprapfirmware", Flavour::reprapfirmware}}))
+        ->type_name("WHOSE");
     group->add_option("--filament-diameter", p.filament_diameter, "mm")->capture_default_str();
     group->add_option("--temperature", p.nozzle_temperature, "nozzle, degrees C")->capture_default_str();
     group->add_option("--bed-temperature", p.bed_temperature, "degrees C")->capture_default_str();
-    group->add_option("--support-extruder", p.support_extruder, "tool that prints external supports; T0 prints all else")->capture_default_str();
-    group->add_option("--support-temperature", p.support_temperature, "of that tool, degrees C; 0: as --temperature")->capture_default_str();
+    group
+        ->add_option("--support-extruder", p.support_extruder, "tool that prints external supports; T0 prints all else")
+        ->capture_default_str();
+    group->add_option("--support-temperature", p.support_temperature, "of that tool, degrees C; 0: as --temperature")
+        ->capture_default_str();
     group->add_option("--fan", p.fan_percent, "from the second layer on, percent")->capture_default_str();
     group->add_option("--print-speed", p.print_speed, "perimeters and covers, mm/s")->capture_default_str();
     group->add_option("--support-speed", p.support_speed, "supports, mm/s")->capture_default_str();
@@ -88,11 +104,16 @@ void add_printer(CLI::App* command, PrinterSettings& p) {
     group->add_option("--travel-speed", p.travel_speed, "mm/s")->capture_default_str();
     group->add_option("--retraction", p.retraction, "mm of filament")->capture_default_str();
     group->add_option("--retraction-speed", p.retraction_speed, "mm/s")->capture_default_str();
-    group->add_option("--retract-over", p.retract_over, "mm of open air under a travel from which it retracts")->capture_default_str();
-    group->add_option("--longest-detour", p.longest_detour, "mm that a travel may be longer to stay inside the shell")->capture_default_str();
-    group->add_option("--prime-surplus", p.prime_surplus, "share of the retraction added before support paths")->capture_default_str();
-    group->add_option("--surplus-clearance", p.surplus_clearance, "mm from a perimeter within which it is not")->capture_default_str();
-    group->add_option("--thumbnails", p.thumbnails, "pictures in the G-code, WxH[,WxH]; none: no picture")->capture_default_str();
+    group->add_option("--retract-over", p.retract_over, "mm of open air under a travel from which it retracts")
+        ->capture_default_str();
+    group->add_option("--longest-detour", p.longest_detour, "mm that a travel may be longer to stay inside the shell")
+        ->capture_default_str();
+    group->add_option("--prime-surplus", p.prime_surplus, "share of the retraction added before support paths")
+        ->capture_default_str();
+    group->add_option("--surplus-clearance", p.surplus_clearance, "mm from a perimeter within which it is not")
+        ->capture_default_str();
+    group->add_option("--thumbnails", p.thumbnails, "pictures in the G-code, WxH[,WxH]; none: no picture")
+        ->capture_default_str();
 }
 
 }  // namespace ribvault::cli

@@ -6,7 +6,8 @@
 
 namespace ribvault::cli {
 
-Progress::Progress(bool quiet, const char* order) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), order_(order) {}
+Progress::Progress(bool quiet, const char* order)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), order_(order) {}
 
 Progress::~Progress() { clear(); }
 

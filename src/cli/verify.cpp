@@ -18,7 +18,9 @@ struct Written {
 };
 
 int run(Written& w) {
-    const auto path = [](const std::string& text) { return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text); };
+    const auto path = [](const std::string& text) {
+        return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text);
+    };
     w.job.gcode = w.gcode;
     w.job.report = path(w.report), w.job.svg = path(w.svg), w.job.html = path(w.html);
     Progress progress(w.quiet, "");
@@ -38,15 +40,23 @@ int run(Written& w) {
 std::function<int()> add_verify(CLI::App& app) {
     const auto written = std::make_shared<Written>();
     Written& w = *written;
-    CLI::App* command = app.add_subcommand("verify", "Judge any slicer's G-code: what has no material within rho in the layer below");
+    CLI::App* command =
+        app.add_subcommand("verify", "Judge any slicer's G-code: what has no material within rho in the layer below");
     command->get_formatter()->column_width(38);
-    command->add_option("gcode", w.gcode, "PrusaSlicer, OrcaSlicer, Bambu Studio, CuraEngine, Slic3r, Simplify3D, ribvault or plain G-code")->required();
+    command
+        ->add_option("gcode", w.gcode,
+                     "PrusaSlicer, OrcaSlicer, Bambu Studio, CuraEngine, Slic3r, Simplify3D, ribvault or plain G-code")
+        ->required();
     add_rules(command, w.job);
     const auto output = command->add_option_group("Output");
     const auto report = output->add_option("--report", w.report, "JSON report to write")->type_name("FILE");
-    output->add_flag("--boundaries", w.job.boundaries, "in the report, the exact boundary of every unsupported region, as lines and arcs")->needs(report);
+    output
+        ->add_flag("--boundaries", w.job.boundaries,
+                   "in the report, the exact boundary of every unsupported region, as lines and arcs")
+        ->needs(report);
     output->add_option("--svg", w.svg, "folder for pictures of the worst layers")->type_name("DIR");
-    output->add_option("--pictures", w.job.pictures, "how many of them at most (default 12)")->check(CLI::Range(0, 100000));
+    output->add_option("--pictures", w.job.pictures, "how many of them at most (default 12)")
+        ->check(CLI::Range(0, 100000));
     output->add_option("--html", w.html, "page to look at every layer, in one file")->type_name("FILE");
     output->add_option("--threads", w.job.threads, "0: all processors")->check(CLI::Range(0, 1024));
     output->add_flag("--quiet", w.quiet, "print errors only");

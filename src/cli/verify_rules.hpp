@@ -7,7 +7,8 @@
 
 namespace ribvault::cli {
 
-/// Adds the groups "Rule" and "Reading" to a subcommand; what the user writes goes to `job`, which must outlive the parsing.
+/// Adds the groups "Rule" and "Reading" to a subcommand; what the user writes goes to `job`, which must outlive the
+/// parsing.
 void add_rules(CLI::App* command, VerifyJob& job);
 
 }  // namespace ribvault::cli

@@ -26,10 +26,14 @@ void Settings::check() const {
     within(pillar_length, nozzle, 10000000, "--pillar-length");
     within(brace, 0, 100000000, "--brace");
     if (support_gap_layers < 0 || support_gap_layers > 100) refuse("--support-gap-layers must lie between 0 and 100");
-    if (support_gap_layers > 0 && support == Support::internal) refuse("--support-gap-layers is about external supports; give it with --support external or both");
-    if (bed_only && support == Support::internal) refuse("--bed-only is about external supports; give it with --support external or both");
-    if (support_gap > 0 && support == Support::internal) refuse("--support-gap keeps external supports off the object; give it with --support external or both");
-    if (pillars && brace > 0) refuse("--pillars leaves every tree one root and --brace gives long ones two; choose one of them");
+    if (support_gap_layers > 0 && support == Support::internal)
+        refuse("--support-gap-layers is about external supports; give it with --support external or both");
+    if (bed_only && support == Support::internal)
+        refuse("--bed-only is about external supports; give it with --support external or both");
+    if (support_gap > 0 && support == Support::internal)
+        refuse("--support-gap keeps external supports off the object; give it with --support external or both");
+    if (pillars && brace > 0)
+        refuse("--pillars leaves every tree one root and --brace gives long ones two; choose one of them");
     if (tries < 1 || tries > 1000) refuse("--tries must lie between 1 and 1000");
     if (perimeters < 1 || perimeters > 100) refuse("--perimeters must lie between 1 and 100");
     if (top_layers < 0 || top_layers > 1000) refuse("--top-layers must lie between 0 and 1000");

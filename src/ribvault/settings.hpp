@@ -48,12 +48,15 @@ struct Settings {
     Order order = Order::distance;
     Gaps gaps = Gaps::proved;
     Support support = Support::internal;
-    /// Removal gap g in plane: no external track's edge comes nearer to the object. With 0 external walls may be rooted on it.
+    /// Removal gap g in plane: no external track's edge comes nearer to the object. With 0 external walls may be rooted
+    /// on it.
     Unit support_gap = 0;
     int support_gap_layers = 0;   ///< so many layers between an external support and what it holds up are left empty
-    bool bed_only = false;        ///< external supports stand on the bed, nowhere on the object (pipeline/ways_to_bed.hpp)
-    Unit pillar_length = 400000;  ///< track that is left of a tree that stands free, on every layer down to what it stands on
-    bool pillars = false;  ///< trees stand free where that takes less track down to the bed, in cavities too (vault/free_trees.hpp)
+    bool bed_only = false;  ///< external supports stand on the bed, nowhere on the object (pipeline/ways_to_bed.hpp)
+    /// Track that is left of a tree that stands free, on every layer down to what it stands on.
+    Unit pillar_length = 400000;
+    bool pillars = false;  ///< trees stand free where that takes less track down to the bed, in cavities too
+                           ///< (vault/free_trees.hpp)
     bool trim = false;  ///< new walls end as early as what they are there for allows (vault/trim_walls.hpp)
 
     Unit erosion_step = 20000;     ///< how much a free tip loses per layer (Section 4.1); at most ρ keeps equation (1)
@@ -61,7 +64,8 @@ struct Settings {
     Unit straighten_step = 20000;  ///< how far a vertex moves per layer
     bool branch_bonus = true;      ///< equation (4)
     Unit branch_bonus_length = 80000;  ///< 4r
-    bool narrow_bonus = false;  ///< half of it where what is unsupported is narrow: no disc of radius 3/4 d has room in its piece
+    /// Half of it where what is unsupported is narrow: no disc of radius 3/4 d has room in its piece.
+    bool narrow_bonus = false;
     bool choose_bonus = false;  ///< narrow_bonus is as takes less track over all layers (pipeline/choose_supports.hpp)
     int tries = 1;              ///< so many seeds from `seed` on are tried; the one that takes the least track is used
     bool length_bound = false;  ///< the report gives a lower bound on the supports' length (vault/length_bound.hpp)
@@ -71,20 +75,24 @@ struct Settings {
     int wall_lines = 1;                ///< tracks side by side in walls that are longer or taller than the next two
     Unit wall_lines_longer = 1000000;  ///< from the root to the farthest tip
     Unit wall_lines_taller = 1000000;  ///< what of the wall stands on this layer
-    Unit brace = 0;  ///< trees that reach farther from their only root get a second one (vault/brace_trees.hpp); 0: none
+    /// Trees that reach farther from their only root get a second one (vault/brace_trees.hpp); 0: none.
+    Unit brace = 0;
 
-    /// First pass of detection: spacing of the candidate points, d / 4. The paper's pixel is 0.05 mm; what lies between the
-    /// points is found exactly by the second pass whatever the pitch, and 0.1 mm needs less material on the cube and the low
-    /// poly bunny, as much on the kitten, more on the moai.
+    /// First pass of detection: spacing of the candidate points, d / 4. The paper's pixel is 0.05 mm; what lies between
+    /// the points is found exactly by the second pass whatever the pitch, and 0.1 mm needs less material on the cube
+    /// and the low poly bunny, as much on the kitten, more on the moai.
     Unit sampling_pitch = 10000;
-    Unit slack = 100;            ///< the generator covers with radius r + ρ - slack, so that the proof seldom meets a tie
+    Unit slack = 100;  ///< the generator covers with radius r + ρ - slack, so that the proof seldom meets a tie
     Unit max_gap = 5000;         ///< open contours are closed over gaps up to this length
 
     bool inside() const { return support != Support::external; }
     /// Do external supports keep off the object, so that none is rooted on it?
     bool stands_off() const { return support_gap > 0 || support_gap_layers > 0 || bed_only; }
-    /// With external supports, how far from O_i the object counts as held up: where they stand off, no track may come nearer than g + r.
-    Unit reach_of_object() const { return stands_off() && support_gap + nozzle / 2 > support_radius ? support_gap + nozzle / 2 : support_radius; }
+    /// With external supports, how far from O_i the object counts as held up: where they stand off, no track may come
+    /// nearer than g + r.
+    Unit reach_of_object() const {
+        return stands_off() && support_gap + nozzle / 2 > support_radius ? support_gap + nozzle / 2 : support_radius;
+    }
     bool outside() const { return support != Support::internal; }
 
     /// Throws Error (usage) naming the first setting that cannot be, and what it may be.
@@ -126,7 +134,8 @@ struct PrinterSettings {
     double surplus_clearance = 1.0;   ///< mm: no surplus when a support path starts nearer to a perimeter
     double bed_x = 250, bed_y = 250, bed_z = 250;  ///< mm
     bool round_bed = false;           ///< a disc of diameter bed_x
-    bool origin_at_centre = false;    ///< x = y = 0 is the middle of the bed, as on most deltas, not its front left corner
+    /// X = y = 0 is the middle of the bed, as on most deltas, not its front left corner.
+    bool origin_at_centre = false;
     MotionLimits limits;              ///< for the time estimate, and written into the file when `write_limits`
     bool write_limits = false;
     std::string file_header;          ///< the very first lines of the file

@@ -110,7 +110,8 @@ TEST_CASE("the distance of two segments: the nearest of their ends, or nothing w
         }
     };
     check({{24000, -18000}, {124000, -18000}}, 30000);  // 30000 beside the way's beginning
-    check({{54000, 22000}, {104000, 72000}}, 30000);    // an end beside the inner part: 30000 (0.8, -0.6) from (30000, 40000)
+    check({{54000, 22000}, {104000, 72000}},
+          30000);  // an end beside the inner part: 30000 (0.8, -0.6) from (30000, 40000)
     check({{84000, 62000}, {24000, -18000}}, 30000);    // parallel
     check({{60000, 90000}, {0, 95000}}, 10000);         // beside the end
     CHECK(compare_distance(Segment{{0, 80000}, {60000, 0}}, way, 1) == -1);

@@ -2,7 +2,8 @@
 //
 //     cmake -B build-fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DRIBVAULT_BUILD_FUZZERS=ON -DRIBVAULT_BUILD_TESTS=OFF
 //     cmake --build build-fuzz --target gcode_reader_fuzz
-//     build-fuzz/bin/gcode_reader_fuzz -dict=tests/fuzz/gcode.dict NEW_INPUTS tests/corpus/gcode tests/fuzz/gcode_inputs
+//     build-fuzz/bin/gcode_reader_fuzz -dict=tests/fuzz/gcode.dict NEW_INPUTS tests/corpus/gcode
+//     tests/fuzz/gcode_inputs
 #include <cstdlib>
 #include <string_view>
 
@@ -27,8 +28,8 @@ void check(const ribvault::GcodePrint& print) {
         for (const std::size_t j : layer.below) require(j < k && print.layers[j].z < layer.z);
         for (const std::size_t j : layer.under_air) require(j < k && print.layers[j].z < layer.z);
         for (const ribvault::GcodeTrack& t : layer.tracks)
-            require(t.a < layer.points.size() && t.b < layer.points.size() && t.width > 0 && t.feature < print.features.size() &&
-                    t.line > 0 && t.line <= print.lines);
+            require(t.a < layer.points.size() && t.b < layer.points.size() && t.width > 0 &&
+                    t.feature < print.features.size() && t.line > 0 && t.line <= print.lines);
     }
 }
 

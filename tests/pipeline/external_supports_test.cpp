@@ -1,4 +1,5 @@
-// External supports from mesh to proof: nothing overhangs, islands in mid-air included; the gap; what the supports are for.
+// External supports from mesh to proof: nothing overhangs, islands in mid-air included; the gap; what the supports are
+// for.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -22,7 +23,8 @@ namespace {
 
 /// A table on one leg, and under its top a hook: a bar in the air that meets the top only higher up.
 std::vector<Triangle> table_with_hook() {
-    return box({0, 0, 0}, {3, 3, 8}) + box({-4, -4, 8}, {7, 7, 9}) + box({5, 5, 4}, {6, 6, 8}) + box({-3, 5, 4}, {6, 6, 5});
+    return box({0, 0, 0}, {3, 3, 8}) + box({-4, -4, 8}, {7, 7, 9}) + box({5, 5, 4}, {6, 6, 8}) +
+           box({-3, 5, 4}, {6, 6, 5});
 }
 /// A column of n sides with radius 2 up to z = 3 that widens to 10 at z = 5.5, twisted by an angle on the way.
 std::vector<Triangle> funnel(int n, double twist) {
@@ -44,7 +46,9 @@ std::vector<Triangle> funnel(int n, double twist) {
 }
 /// Random blocks on and over each other, all above a foot.
 std::vector<Triangle> random_blocks(std::mt19937_64& random) {
-    const auto between = [&](double lo, double hi) { return std::round(std::uniform_real_distribution<double>(lo, hi)(random) * 64) / 64; };
+    const auto between = [&](double lo, double hi) {
+        return std::round(std::uniform_real_distribution<double>(lo, hi)(random) * 64) / 64;
+    };
     std::vector<Triangle> all = box({0, 0, 0}, {between(2, 5), between(2, 5), 6});
     for (int k = 0; k < 5; ++k) {
         const double x = between(-5, 5), y = between(-5, 5), z = between(1, 6);
@@ -84,20 +88,23 @@ TEST_CASE("without external supports a table overhangs, with them it is proved, 
         // 121 mm2 of top less the leg, 8 mm over the bed: a block under it has 900 mm3.
         CHECK(report.totals.external_support_volume_mm3 < 150);
         CHECK((report.totals.support_volume_mm3 > 0) == (support == Support::both));
-        if (support == Support::external) CHECK(report.totals.shell_volume_mm3 == Approx(report.input.volume_mm3).epsilon(0.1));
+        if (support == Support::external)
+            CHECK(report.totals.shell_volume_mm3 == Approx(report.input.volume_mm3).epsilon(0.1));
     }
 }
 
 TEST_CASE("random blocks in the air end proved with external supports, with and without a removal gap") {
     std::mt19937_64 random(20191127);
     for (int round = 0; round < 16; ++round) {
-        Settings settings = with(round % 2 == 0 ? Support::both : Support::external, std::array<Unit, 4>{0, 0, 10000, 30000}[static_cast<std::size_t>(round) % 4]);
+        Settings settings = with(round % 2 == 0 ? Support::both : Support::external,
+                                 std::array<Unit, 4>{0, 0, 10000, 30000}[static_cast<std::size_t>(round) % 4]);
         settings.seed = random();
         settings.top_layers = static_cast<int>(random() % 3);
         settings.bottom_layers = static_cast<int>(random() % 3);
         settings.pillars = round % 4 < 2;
         if (round % 3 == 1) settings.support_radius = 12000, settings.erosion_step = settings.straighten_step = 12000;
-        if (round % 5 == 4) settings.propagation = Propagation::shrink, settings.order = Order::doubling, settings.trim = true;
+        if (round % 5 == 4)
+            settings.propagation = Propagation::shrink, settings.order = Order::doubling, settings.trim = true;
         const RunReport report = run(random_blocks(random), settings);
         INFO("round " << round);
         CHECK(report.verdict.proved);
@@ -107,19 +114,26 @@ TEST_CASE("random blocks in the air end proved with external supports, with and 
     }
 }
 
-TEST_CASE("no support track comes nearer to the object than the gap, and without the supports every layer they hold is refuted") {
+TEST_CASE(
+    "no support track comes nearer to the object than the gap, and without the supports every layer they hold is "
+    "refuted") {
     Mesh mesh = weld(table_with_hook());
     const Settings settings = with(Support::external, 20000);
     const Placement placement = place(mesh, {});
     const Slicer slicer(mesh, placement, settings);
     const OutsideRoom room(slicer, support_frame(mesh, placement, settings), settings, 1, [] { return false; });
     std::vector<LayerMaterial> layers(static_cast<std::size_t>(slicer.layer_count()));
-    sweep_layers(slicer, settings, {}, 1, [](const SweptLayer&, const LayerMaterial*) { return std::shared_ptr<void>(); },
-                 [&](const SweptLayer& layer, std::shared_ptr<void>) { layers[static_cast<std::size_t>(layer.material.layer)] = layer.material; },
-                 [] { return false; }, &room);
+    sweep_layers(
+        slicer, settings, {}, 1, [](const SweptLayer&, const LayerMaterial*) { return std::shared_ptr<void>(); },
+        [&](const SweptLayer& layer, std::shared_ptr<void>) {
+            layers[static_cast<std::size_t>(layer.material.layer)] = layer.material;
+        },
+        [] { return false; }, &room);
     int held = 0;
     for (std::size_t i = 0; i + 1 < layers.size(); ++i) {
-        const auto geometry = [&](std::size_t k) { return LayerGeometry{layers[k].slice->exact.get(), &layers[k].cavity->region, *layers[k].tracks}; };
+        const auto geometry = [&](std::size_t k) {
+            return LayerGeometry{layers[k].slice->exact.get(), &layers[k].cavity->region, *layers[k].tracks};
+        };
         CHECK_FALSE(find_too_near(*layers[i].slice->exact, *layers[i].tracks, 40000));
         CHECK(verify_layer(static_cast<int>(i) + 1, geometry(i + 1), geometry(i), settings).supported);
         if (layers[i + 1].tracks->empty() && layers[i].tracks->empty()) continue;
@@ -133,7 +147,8 @@ TEST_CASE("no support track comes nearer to the object than the gap, and without
 
 TEST_CASE("crevices narrower than the gap are named, and do not pass for held up") {
     // A roof over a slot of 1 mm between two walls: with a gap of 0.6 mm no track fits between them.
-    const std::vector<Triangle> slot = box({0, 0, 0}, {2, 8, 4}) + box({3, 0, 0}, {5, 8, 4}) + box({0, 0, 4}, {5, 8, 5});
+    const std::vector<Triangle> slot =
+        box({0, 0, 0}, {2, 8, 4}) + box({3, 0, 0}, {5, 8, 4}) + box({0, 0, 4}, {5, 8, 5});
     const RunReport report = run(slot, with(Support::external, 60000));
     REQUIRE(report.verdict.external_overhangs.size() == 1);
     CHECK(report.verdict.external_overhangs[0].layer == 20);
@@ -157,16 +172,25 @@ struct Swept {
     std::vector<SweptLayer> layers;
 
     Swept(const std::vector<Triangle>& solid, const Settings& settings)
-        : mesh(weld(solid)), placement(place(mesh, {})), slicer(mesh, placement, settings), layers(static_cast<std::size_t>(slicer.layer_count())) {
+        : mesh(weld(solid)),
+          placement(place(mesh, {})),
+          slicer(mesh, placement, settings),
+          layers(static_cast<std::size_t>(slicer.layer_count())) {
         room.emplace(slicer, support_frame(mesh, placement, settings), settings, 1, [] { return false; });
-        sweep_layers(slicer, settings, {}, 1, [](const SweptLayer&, const LayerMaterial*) { return std::shared_ptr<void>(); },
-                     [&](const SweptLayer& layer, std::shared_ptr<void>) { layers[static_cast<std::size_t>(layer.material.layer)] = layer; }, [] { return false; },
-                     &*room);
+        sweep_layers(
+            slicer, settings, {}, 1, [](const SweptLayer&, const LayerMaterial*) { return std::shared_ptr<void>(); },
+            [&](const SweptLayer& layer, std::shared_ptr<void>) {
+                layers[static_cast<std::size_t>(layer.material.layer)] = layer;
+            },
+            [] { return false; }, &*room);
     }
 };
 
-/// A column on a foot that reaches as far as the roof over it: what holds up the roof stands on the foot, or slants past it. `foot`: half its side.
-std::vector<Triangle> column_on_foot(double foot) { return box({-foot, -foot, 0}, {foot, foot, 1}) + box({-1, -1, 1}, {1, 1, 8}) + box({-4, -4, 8}, {4, 4, 9}); }
+/// A column on a foot that reaches as far as the roof over it: what holds up the roof stands on the foot, or slants
+/// past it. `foot`: half its side.
+std::vector<Triangle> column_on_foot(double foot) {
+    return box({-foot, -foot, 0}, {foot, foot, 1}) + box({-1, -1, 1}, {1, 1, 8}) + box({-4, -4, 8}, {4, 4, 9});
+}
 
 }  // namespace
 
@@ -187,7 +211,8 @@ TEST_CASE("supports on the bed alone stand on no part of the object, and slant p
             CHECK(prove_layer(upper, lower, settings).supported);
             LayerMaterial bare = lower;
             bare.external = std::make_shared<const std::vector<Segment>>();
-            if (!upper.external->empty()) CHECK_FALSE(prove_layer(upper, bare, settings).supported);  // though the object is still there
+            if (!upper.external->empty())
+                CHECK_FALSE(prove_layer(upper, bare, settings).supported);  // though the object is still there
         }
         const RunReport report = run(column_on_foot(5), settings);
         CHECK(report.verdict.proved);
@@ -234,7 +259,8 @@ TEST_CASE("ways to the bed: every point of one is within rho of one on the layer
                 for (const Point p : {e.a, middle}) {
                     ++looked;
                     const bool inside = location.locate(p) != Side::outside;
-                    CHECK((inside || compare_distance(p, below.segments()[below.nearest(p).index], settings.support_radius) <= 0));
+                    CHECK((inside || compare_distance(p, below.segments()[below.nearest(p).index],
+                                                      settings.support_radius) <= 0));
                 }
             }
         }
@@ -261,7 +287,8 @@ TEST_CASE("over a gap of layers nothing stands right under the object, and what 
                 CHECK(over.gap.size() == static_cast<std::size_t>(gap));
                 CHECK(prove_over_gap(over, layer.material, settings).supported);
                 REQUIRE(over.print.hanging);
-                const auto part = std::find_if(layer.held.parts.begin(), layer.held.parts.end(), [](const PrintPart& p) { return p.over_gap; });
+                const auto part = std::find_if(layer.held.parts.begin(), layer.held.parts.end(),
+                                               [](const PrintPart& p) { return p.over_gap; });
                 CHECK((part == layer.held.parts.end()) == over.print.hanging->tracks.empty());
                 if (part != layer.held.parts.end()) CHECK(part->judgement.verdict().supported);
                 LayerMaterial bare = layer.material;
@@ -276,7 +303,9 @@ TEST_CASE("over a gap of layers nothing stands right under the object, and what 
     }
 }
 
-TEST_CASE("the supports under the gap hold up what a printed slice's rounded corners leave, so the perimeter is not printed twice") {
+TEST_CASE(
+    "the supports under the gap hold up what a printed slice's rounded corners leave, so the perimeter is not printed "
+    "twice") {
     for (const auto& [sides, twist] : {std::pair(3, 0.0), {4, 0.0}, {5, 0.25}, {12, 0.0}, {12, 0.3}, {24, 0.2}})
         for (const int gap : {1, 3}) {
             Settings settings = with(Support::external, 20000);
@@ -292,9 +321,14 @@ TEST_CASE("the supports under the gap hold up what a printed slice's rounded cor
         }
 }
 
-TEST_CASE("a blade too thin for a track is printed where it holds something up, and where that leaves less than the gap is told") {
-    const auto table_on_blade = [](double width) { return box({-4, -4, 0}, {4, 4, 1}) + box({-width / 2, -3, 1}, {width / 2, 3, 5}) + box({-4, -4, 5}, {4, 4, 6}); };
-    const RunReport thin = run(table_on_blade(0.1), with(Support::external, 30000)), wide = run(table_on_blade(0.3), with(Support::external, 30000));
+TEST_CASE(
+    "a blade too thin for a track is printed where it holds something up, and where that leaves less than the gap is "
+    "told") {
+    const auto table_on_blade = [](double width) {
+        return box({-4, -4, 0}, {4, 4, 1}) + box({-width / 2, -3, 1}, {width / 2, 3, 5}) + box({-4, -4, 5}, {4, 4, 6});
+    };
+    const RunReport thin = run(table_on_blade(0.1), with(Support::external, 30000)),
+                    wide = run(table_on_blade(0.3), with(Support::external, 30000));
     for (const RunReport* report : {&thin, &wide}) {
         CHECK(report->verdict.proved);
         CHECK(report->verdict.print_proved);
@@ -308,10 +342,12 @@ TEST_CASE("random blocks on supports from the bed, and through gaps of layers, a
     std::mt19937_64 random(20261128);
     int proved = 0;
     for (int round = 0; round < 16; ++round) {
-        Settings settings = with(round % 4 < 2 ? Support::external : Support::both, std::array<Unit, 3>{0, 10000, 30000}[static_cast<std::size_t>(round) % 3]);
+        Settings settings = with(round % 4 < 2 ? Support::external : Support::both,
+                                 std::array<Unit, 3>{0, 10000, 30000}[static_cast<std::size_t>(round) % 3]);
         settings.bed_only = round % 2 == 0;
         settings.support_gap_layers = std::array<int, 3>{1, 0, 2}[static_cast<std::size_t>(round / 2) % 3];
-        if (round % 5 == 4) settings.propagation = Propagation::shrink, settings.order = Order::doubling, settings.trim = true;
+        if (round % 5 == 4)
+            settings.propagation = Propagation::shrink, settings.order = Order::doubling, settings.trim = true;
         const RunReport report = run(random_blocks(random), settings);
         INFO("round " << round);
         if (!settings.bed_only) CHECK(report.verdict.proved);
@@ -346,7 +382,8 @@ TEST_CASE("random blocks with pillars in their cavities and outside are proved")
         Settings settings = with(round % 2 == 0 ? Support::internal : Support::both);
         settings.seed = random(), settings.pillars = true;
         settings.top_layers = settings.bottom_layers = round % 3;
-        if (round % 4 > 1) settings.propagation = Propagation::shrink, settings.order = Order::doubling, settings.trim = true;
+        if (round % 4 > 1)
+            settings.propagation = Propagation::shrink, settings.order = Order::doubling, settings.trim = true;
         const RunReport report = run(random_blocks(random) + box({-9, -9, 0}, {9, 9, 3}), settings);
         INFO("round " << round);
         CHECK(report.verdict.proved);
@@ -354,7 +391,9 @@ TEST_CASE("random blocks with pillars in their cavities and outside are proved")
     }
 }
 
-TEST_CASE("a leaning block that recedes by exactly rho needs no support, one that recedes by 20 pm more gets them, and is proved") {
+TEST_CASE(
+    "a leaning block that recedes by exactly rho needs no support, one that recedes by 20 pm more gets them, and is "
+    "proved") {
     for (const float shift : {10.0f, std::nextafter(10.0f, 11.0f)}) {
         std::vector<Triangle> block = box({0, 0, 0}, {4, 3, 10});
         for (Triangle& t : block)
@@ -372,7 +411,8 @@ TEST_CASE("through a gap of layers an empty cavity holds up nothing") {
     // A box without covers at its top, open there, a neck one layer high, and a floor that hangs over the opening.
     Settings settings = with(Support::both);
     settings.top_layers = 0, settings.support_gap_layers = 1, settings.gaps = Gaps::paper;
-    const RunReport report = run(box({0, 0, 0}, {20, 20, 2}) + box({8, 8, 2}, {12, 12, 2.2}) + box({0, 0, 2.2}, {20, 20, 3.2}), settings);
+    const RunReport report =
+        run(box({0, 0, 0}, {20, 20, 2}) + box({8, 8, 2}, {12, 12, 2.2}) + box({0, 0, 2.2}, {20, 20, 3.2}), settings);
     CHECK_FALSE(report.verdict.proved);
     CHECK(report.verdict.layers_refuted == std::vector<int>{11});
 }

@@ -38,20 +38,23 @@ std::string revolution(const std::vector<std::pair<double, double>>& profile, in
     for (const auto& [radius, z] : profile)
         for (int k = 0; k < corners; ++k) {
             const double a = turn + 2 * M_PI * k / corners;
-            vertices += std::to_string(radius * std::cos(a)) + ' ' + std::to_string(radius * std::sin(a)) + ' ' + std::to_string(z) + '\n';
+            vertices += std::to_string(radius * std::cos(a)) + ' ' + std::to_string(radius * std::sin(a)) + ' ' +
+                        std::to_string(z) + '\n';
         }
     int count = 0;
     for (int i = 0; i + 1 < rings; ++i)
         for (int k = 0; k < corners; ++k, ++count) {
             const int a = i * corners + k, b = i * corners + (k + 1) % corners;
-            faces += "4 " + std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(b + corners) + ' ' + std::to_string(a + corners) + '\n';
+            faces += "4 " + std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(b + corners) + ' ' +
+                     std::to_string(a + corners) + '\n';
         }
     std::string floor = std::to_string(corners), roof = floor;
     for (int k = 0; k < corners; ++k) {
         floor += ' ' + std::to_string(corners - 1 - k);
         roof += ' ' + std::to_string((rings - 1) * corners + k);
     }
-    return "OFF\n" + std::to_string(rings * corners) + ' ' + std::to_string(count + 2) + " 0\n" + vertices + faces + floor + '\n' + roof + '\n';
+    return "OFF\n" + std::to_string(rings * corners) + ' ' + std::to_string(count + 2) + " 0\n" + vertices + faces +
+           floor + '\n' + roof + '\n';
 }
 
 /// A random solid of the kind that needs supports: narrowing and widening rings, a flat or pointed roof.
@@ -116,11 +119,17 @@ TEST_CASE("random solids end proved under random settings") {
         job.settings.bottom_layers = static_cast<int>(random() % 3);
         job.settings.straighten = random() % 4 != 0;
         job.settings.branch_bonus = random() % 4 != 0;
-        if (round % 3 == 1) job.settings.support_radius = 12000, job.settings.erosion_step = job.settings.straighten_step = 12000;
-        if (round % 3 == 2) job.settings.support_radius = 30000, job.settings.erosion_step = job.settings.straighten_step = 30000;
+        if (round % 3 == 1)
+            job.settings.support_radius = 12000, job.settings.erosion_step = job.settings.straighten_step = 12000;
+        if (round % 3 == 2)
+            job.settings.support_radius = 30000, job.settings.erosion_step = job.settings.straighten_step = 30000;
         if (round % 4 == 3) job.settings.sampling_pitch = 4000;
-        if (round % 5 == 4) job.settings.propagation = Propagation::shrink, job.settings.order = Order::doubling, job.settings.trim = true;
-        if (round % 4 >= 2) job.settings.wall_lines = round % 4, job.settings.wall_lines_longer = job.settings.wall_lines_taller = 3 * units_per_mm;
+        if (round % 5 == 4)
+            job.settings.propagation = Propagation::shrink, job.settings.order = Order::doubling,
+            job.settings.trim = true;
+        if (round % 4 >= 2)
+            job.settings.wall_lines = round % 4,
+            job.settings.wall_lines_longer = job.settings.wall_lines_taller = 3 * units_per_mm;
         job.settings.length_bound = true;
         const RunReport report = generate(job);
         INFO("round " << round);
@@ -183,9 +192,11 @@ TEST_CASE("bad input has its own error each") {
     REQUIRE(side != std::string::npos);
     open.erase(side, 10);
     for (std::string* text : {&open, &roofless}) text->replace(text->find(" 6 0"), 4, " 5 0");
-    check_refused(job_for(folder.file("open.off", open)), ErrorKind::bad_geometry, "the mesh is open: 25 gaps wider than 0.05 mm");
+    check_refused(job_for(folder.file("open.off", open)), ErrorKind::bad_geometry,
+                  "the mesh is open: 25 gaps wider than 0.05 mm");
     const RunReport whole = generate(job_for(folder.file("closed.off", closed)));
-    CHECK(generate(job_for(folder.file("roofless.off", roofless))).totals.shell_volume_mm3 == whole.totals.shell_volume_mm3);
+    CHECK(generate(job_for(folder.file("roofless.off", roofless))).totals.shell_volume_mm3 ==
+          whole.totals.shell_volume_mm3);
     Job large = job_for(folder.file("large.off", closed));
     large.placement.scale = Rational(100);
     check_refused(large, ErrorKind::does_not_fit, "bed");
@@ -265,7 +276,8 @@ TEST_CASE("of the ways to grow supports the run uses the one that takes the leas
     CHECK(chosen.settings.narrow_bonus == chosen.candidates.front().narrow_bonus);
     CHECK(chosen.totals.support_length_mm == Approx(chosen.candidates.front().length_mm));
     CHECK(chosen.verdict.proved);
-    // What the sweep before the run has made is printed as the run alone would have made it: branches that end, what hung, chains that could not move.
+    // What the sweep before the run has made is printed as the run alone would have made it: branches that end, what
+    // hung, chains that could not move.
     const auto page = [&](Job one) {
         one.gcode = folder.path / "print.gcode", one.layers = folder.path / "layers.jsonl";
         generate(one);
@@ -274,7 +286,8 @@ TEST_CASE("of the ways to grow supports the run uses the one that takes the leas
             std::string line, all;
             for (bool body = file.extension() == ".gcode" ? false : true; std::getline(in, line);) {
                 body = body || line.starts_with(";LAYER:");
-                if (body && line.find("\"settings\"") == std::string::npos && !line.starts_with("; ")) all += line + '\n';
+                if (body && line.find("\"settings\"") == std::string::npos && !line.starts_with("; "))
+                    all += line + '\n';
             }
             return all;
         };

@@ -14,7 +14,13 @@ LayerSupports random_supports(std::mt19937_64& random, std::size_t size) {
     const auto coordinate = [&] { return static_cast<Unit>(random() % 2000000) - 1000000; };
     const auto coin = [&] { return random() % 2 == 0; };
     for (std::size_t k = 0; k < size; ++k)
-        add_vertex(SupportVertex{{coordinate(), coordinate()}, coin(), coin(), coin(), coin(), static_cast<std::int32_t>(random() % 1000)}, supports.forest);
+        add_vertex(SupportVertex{{coordinate(), coordinate()},
+                                 coin(),
+                                 coin(),
+                                 coin(),
+                                 coin(),
+                                 static_cast<std::int32_t>(random() % 1000)},
+                   supports.forest);
     for (std::size_t k = 1; k < size; ++k)
         if (random() % 4 != 0) {
             // Some edges lead up, some down, and not in the order of their ends.
@@ -23,7 +29,8 @@ LayerSupports random_supports(std::mt19937_64& random, std::size_t size) {
         }
     for (std::size_t k = 0; k < size % 5; ++k) {
         supports.unsupported.emplace_back();
-        for (std::size_t n = random() % 20; n > 0; --n) supports.unsupported.back().push_back({coordinate(), coordinate()});
+        for (std::size_t n = random() % 20; n > 0; --n)
+            supports.unsupported.back().push_back({coordinate(), coordinate()});
     }
     supports.blocked = static_cast<int>(random() % 100), supports.braces = static_cast<int>(random() % 100);
     return supports;
@@ -36,10 +43,13 @@ std::vector<std::int64_t> all_of(const LayerSupports& supports) {
     for (auto [v, end] = vertices(forest); v != end; ++v) {
         const SupportVertex& at = forest[*v];
         all.insert(all.end(), {at.at.x, at.at.y, at.root, at.free, at.outside, at.wide, at.standing});
-        for (auto [e, last] = out_edges(*v, forest); e != last; ++e) all.push_back(static_cast<std::int64_t>(target(*e, forest)));
+        for (auto [e, last] = out_edges(*v, forest); e != last; ++e)
+            all.push_back(static_cast<std::int64_t>(target(*e, forest)));
     }
     for (auto [e, end] = edges(forest); e != end; ++e)
-        all.insert(all.end(), {static_cast<std::int64_t>(source(*e, forest)), static_cast<std::int64_t>(target(*e, forest)), forest[*e].first_layer, forest[*e].to_junction});
+        all.insert(all.end(),
+                   {static_cast<std::int64_t>(source(*e, forest)), static_cast<std::int64_t>(target(*e, forest)),
+                    forest[*e].first_layer, forest[*e].to_junction});
     for (const Contour& contour : supports.unsupported) {
         all.push_back(static_cast<std::int64_t>(contour.size()));
         for (const Point p : contour) all.insert(all.end(), {p.x, p.y});

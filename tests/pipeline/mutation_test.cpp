@@ -23,9 +23,12 @@ std::vector<std::shared_ptr<const PrintedLayer>> print_of_a_cube(Settings settin
     const Placement placement = place(mesh, options);
     const Slicer slicer(mesh, placement, settings);
     std::vector<std::shared_ptr<const PrintedLayer>> layers(static_cast<std::size_t>(slicer.layer_count()));
-    sweep_layers(slicer, settings, {}, 1, [](const SweptLayer&, const LayerMaterial*) { return std::shared_ptr<void>(); },
-                 [&](const SweptLayer& layer, std::shared_ptr<void>) { layers[static_cast<std::size_t>(layer.material.layer)] = layer.held.printed; },
-                 [] { return false; });
+    sweep_layers(
+        slicer, settings, {}, 1, [](const SweptLayer&, const LayerMaterial*) { return std::shared_ptr<void>(); },
+        [&](const SweptLayer& layer, std::shared_ptr<void>) {
+            layers[static_cast<std::size_t>(layer.material.layer)] = layer.held.printed;
+        },
+        [] { return false; });
     return layers;
 }
 
@@ -36,12 +39,17 @@ GridTrack grid(const PrintedTrack& t, const std::array<Rational, 2>& origin, con
         REQUIRE(n.get_den() == 1);
         return static_cast<std::int64_t>(n.get_num().get_si());
     };
-    return {nm(t.a[0] - origin[0]), nm(t.a[1] - origin[1]), nm(t.b[0] - origin[0]), nm(t.b[1] - origin[1]), nm(t.width / 2 + more)};
+    return {nm(t.a[0] - origin[0]), nm(t.a[1] - origin[1]), nm(t.b[0] - origin[0]), nm(t.b[1] - origin[1]),
+            nm(t.width / 2 + more)};
 }
 
-double gap(const PrintedTrack& s, const PrintedTrack& t) {  // a lower bound of the distance of two centre lines: of their boxes
-    const auto apart = [](double a, double b, double c, double d) { return std::max(0.0, std::max(std::min(c, d) - std::max(a, b), std::min(a, b) - std::max(c, d))); };
-    return std::hypot(apart(s.a[0].get_d(), s.b[0].get_d(), t.a[0].get_d(), t.b[0].get_d()), apart(s.a[1].get_d(), s.b[1].get_d(), t.a[1].get_d(), t.b[1].get_d()));
+double gap(const PrintedTrack& s,
+           const PrintedTrack& t) {  // a lower bound of the distance of two centre lines: of their boxes
+    const auto apart = [](double a, double b, double c, double d) {
+        return std::max(0.0, std::max(std::min(c, d) - std::max(a, b), std::min(a, b) - std::max(c, d)));
+    };
+    return std::hypot(apart(s.a[0].get_d(), s.b[0].get_d(), t.a[0].get_d(), t.b[0].get_d()),
+                      apart(s.a[1].get_d(), s.b[1].get_d(), t.a[1].get_d(), t.b[1].get_d()));
 }
 
 struct Count {
@@ -106,7 +114,8 @@ TEST_CASE("a support track of a proved print that is taken away or shortened is 
     mutate(settings, "4", count);
     settings.propagation = Propagation::shrink, settings.order = Order::doubling, settings.trim = true;
     mutate(settings, "4", count);
-    std::cout << count.mutations << " tracks taken away or shortened, " << count.noticed << " of them noticed; the subdivision left " << count.open << " open\n";
+    std::cout << count.mutations << " tracks taken away or shortened, " << count.noticed
+              << " of them noticed; the subdivision left " << count.open << " open\n";
     CHECK(count.mutations > 300);
     CHECK(count.noticed > 100);
     CHECK(count.noticed < count.mutations);

@@ -47,7 +47,8 @@ std::filesystem::path cube(const ScratchFolder& folder) {
     std::ofstream stl(job.model);
     const double s = 8;
     const double v[8][3] = {{0, 0, 0}, {s, 0, 0}, {s, s, 0}, {0, s, 0}, {0, 0, s}, {s, 0, s}, {s, s, s}, {0, s, s}};
-    const int t[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+    const int t[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                          {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
     stl << "solid cube\n";
     for (const auto& f : t) {
         stl << "facet normal 0 0 0\nouter loop\n";
@@ -88,7 +89,9 @@ TEST_CASE("a cantilever hangs where it leaves what is below by more than rho", "
 
 TEST_CASE("the report has a region's boundary when asked for, exactly", "[verify-print]") {
     VerifyJob job = job_on("cantilever.gcode");
-    const auto region_of = [](const PrintReport& report) { return nlohmann::json::parse(to_json(report))["layers"][1]["regions"][0]; };
+    const auto region_of = [](const PrintReport& report) {
+        return nlohmann::json::parse(to_json(report))["layers"][1]["regions"][0];
+    };
     CHECK_FALSE(region_of(verify_print(job)).contains("boundary"));
     job.boundaries = true;
     const nlohmann::json region = region_of(verify_print(job)), boundary = region["boundary"];
@@ -199,7 +202,8 @@ TEST_CASE("outputs: the same for any number of threads", "[verify-print]") {
         VerifyJob job;
         job.gcode = gcode;
         job.threads = threads;
-        job.report = folder / "report.json", job.html = folder / "page.html", job.svg = folder / ("svg" + std::to_string(threads));
+        job.report = folder / "report.json", job.html = folder / "page.html",
+        job.svg = folder / ("svg" + std::to_string(threads));
         const PrintReport r = verify_print(job);
         const std::string json = contents(*job.report);
         reports.push_back(json.substr(0, json.find("\"machine\"")));

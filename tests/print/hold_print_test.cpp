@@ -14,20 +14,25 @@ namespace {
 
 constexpr Unit mm = units_per_mm;
 
-PlannedTrack track(TrackKind kind, bool closed, std::vector<Point> points) { return {{{kind, 40000, closed, std::move(points)}}, Entry::either_end, no_stop}; }
+PlannedTrack track(TrackKind kind, bool closed, std::vector<Point> points) {
+    return {{{kind, 40000, closed, std::move(points)}}, Entry::either_end, no_stop};
+}
 
 /// A square outline of 20 mm as one outer perimeter.
 LayerPlan square_shell() {
     LayerPlan plan;
-    plan.tracks.push_back(track(TrackKind::outer_perimeter, true, {{0, 0}, {20 * mm, 0}, {20 * mm, 20 * mm}, {0, 20 * mm}}));
+    plan.tracks.push_back(
+        track(TrackKind::outer_perimeter, true, {{0, 0}, {20 * mm, 0}, {20 * mm, 20 * mm}, {0, 20 * mm}}));
     return plan;
 }
 
 /// A trunk that turns a corner at (10, 10) mm, where a branch goes straight on.
 SupportForest trunk_and_branch() {
     SupportForest forest;
-    const auto root = add_vertex(SupportVertex{{0, 10 * mm}, true}, forest), joint = add_vertex(SupportVertex{{10 * mm, 10 * mm}, false}, forest);
-    const auto tip = add_vertex(SupportVertex{{10 * mm, 2 * mm}, false}, forest), end = add_vertex(SupportVertex{{14 * mm, 10 * mm}, false}, forest);
+    const auto root = add_vertex(SupportVertex{{0, 10 * mm}, true}, forest),
+               joint = add_vertex(SupportVertex{{10 * mm, 10 * mm}, false}, forest);
+    const auto tip = add_vertex(SupportVertex{{10 * mm, 2 * mm}, false}, forest),
+               end = add_vertex(SupportVertex{{14 * mm, 10 * mm}, false}, forest);
     add_edge(root, joint, forest), add_edge(joint, tip, forest), add_edge(joint, end, forest);
     return forest;
 }
@@ -49,8 +54,10 @@ TEST_CASE("a gap that lets nothing hang stays") {
 }
 
 TEST_CASE("a gap over which a wall's side hangs is closed; with the paper's gaps the verdict names it") {
-    // 0.2 mm beside the branch, so that it reaches 0.4 mm: (10.2, 10.4) is 0.447 mm from the trunk's corner and from the branch's end.
-    const PrintedLayer above = print_of({track(TrackKind::support, false, {{10 * mm + 5000, 10 * mm + 20000}, {12 * mm, 10 * mm + 20000}})});
+    // 0.2 mm beside the branch, so that it reaches 0.4 mm: (10.2, 10.4) is 0.447 mm from the trunk's corner and from
+    // the branch's end.
+    const PrintedLayer above =
+        print_of({track(TrackKind::support, false, {{10 * mm + 5000, 10 * mm + 20000}, {12 * mm, 10 * mm + 20000}})});
     Settings settings;
     settings.gaps = Gaps::paper;
     const HeldLayer paper = hold_print(square_shell(), trunk_and_branch(), &above, settings);
@@ -87,11 +94,13 @@ TEST_CASE("what hangs inside the outline gets patches, and they shrink from laye
     CHECK(layers < 40);
 }
 
-TEST_CASE("the root that a vanished tree leaves is printed only where something hangs without it, joined to what is there") {
+TEST_CASE(
+    "the root that a vanished tree leaves is printed only where something hangs without it, joined to what is there") {
     SupportForest dot;
     add_vertex(SupportVertex{{20000, 10 * mm}, true}, dot);
     const auto dots = [](const HeldLayer& held) {
-        return std::count_if(held.plan.tracks.begin(), held.plan.tracks.end(), [](const PlannedTrack& t) { return is_support(t.paths.front().kind); });
+        return std::count_if(held.plan.tracks.begin(), held.plan.tracks.end(),
+                             [](const PlannedTrack& t) { return is_support(t.paths.front().kind); });
     };
     CHECK(dots(hold_print(square_shell(), dot, nullptr, {})) == 0);
     Settings paper;
@@ -110,7 +119,8 @@ TEST_CASE("the root that a vanished tree leaves is printed only where something 
 }
 
 TEST_CASE("what hangs outside the outline is measured, not patched") {
-    const PrintedLayer above = print_of({track(TrackKind::outer_perimeter, false, {{-3 * mm, 5 * mm}, {-3 * mm, 9 * mm}})});
+    const PrintedLayer above =
+        print_of({track(TrackKind::outer_perimeter, false, {{-3 * mm, 5 * mm}, {-3 * mm, 9 * mm}})});
     const HeldLayer held = hold_print(square_shell(), {}, &above, {});
     CHECK(held.patches == 0);
     const PrintVerdict verdict = judge_print(above, *held.printed, {});

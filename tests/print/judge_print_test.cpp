@@ -31,8 +31,12 @@ public:
         const Point corners[]{{mm, mm}, {7 * mm, mm}, {7 * mm, 7 * mm}, {mm, 7 * mm}};
         for (int k = 0; k < 4; ++k) {
             const Point a = corners[k], b = corners[(k + 1) % 4];
-            layer.tracks.push_back({{printed_length(a.x), printed_length(a.y)}, {printed_length(b.x), printed_length(b.y)}, printed_length(40000),
-                                    static_cast<int>(TrackKind::outer_perimeter), 0, true});
+            layer.tracks.push_back({{printed_length(a.x), printed_length(a.y)},
+                                    {printed_length(b.x), printed_length(b.y)},
+                                    printed_length(40000),
+                                    static_cast<int>(TrackKind::outer_perimeter),
+                                    0,
+                                    true});
         }
         while (n-- > 0) layer.tracks.push_back(track());
         return layer;
@@ -70,7 +74,8 @@ TEST_CASE("after changes of the layer below the verdict is that of a look at eve
             // The margin by which stretches are grown depends on the largest coordinate of a look.
             const auto same = [&](const std::vector<OpenStretch>& s, const std::vector<OpenStretch>& t) {
                 return std::equal(s.begin(), s.end(), t.begin(), t.end(), [&](const auto& p, const auto& q) {
-                    return p.track == q.track && std::fabs(p.from_mm - q.from_mm) < 1e-9 && std::fabs(p.to_mm - q.to_mm) < 1e-9;
+                    return p.track == q.track && std::fabs(p.from_mm - q.from_mm) < 1e-9 &&
+                           std::fabs(p.to_mm - q.to_mm) < 1e-9;
                 });
             };
             CHECK(same(judgement.open(), anew.open()));

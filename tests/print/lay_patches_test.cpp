@@ -39,7 +39,8 @@ TEST_CASE("a wall whose tip is near goes on to the dot") {
 }
 
 TEST_CASE("only a track that may be entered at either end begins at a dot") {
-    LayerPlan fixed = plan_of({track(TrackKind::support, {{0, 0}, {mm, 0}}, Entry::fixed)}), free = plan_of({track(TrackKind::support, {{0, 0}, {mm, 0}})});
+    LayerPlan fixed = plan_of({track(TrackKind::support, {{0, 0}, {mm, 0}}, Entry::fixed)}),
+              free = plan_of({track(TrackKind::support, {{0, 0}, {mm, 0}})});
     lay(fixed, {dot(-10000, 0)}), lay(free, {dot(-10000, 0)});
     CHECK(fixed.tracks[0].paths[0].points.front() == Point{0, 0});
     CHECK(free.tracks[0].paths[0].points == Points{{-10000, 0}, {0, 0}, {mm, 0}});
@@ -47,16 +48,33 @@ TEST_CASE("only a track that may be entered at either end begins at a dot") {
 
 TEST_CASE("beside a support a spur, wherever else the track is changed") {
     LayerPlan plan = plan_of({track(TrackKind::support, {{0, 0}, {mm, 0}, {2 * mm, 0}})});
-    const Unit added = lay(plan, {dot(150000, 10000), dot(50000, -9000), dot(20000, 8000), dot(-9000, 0), dot(2 * mm + 9000, 0), dot(mm, 7000)});
+    const Unit added = lay(plan, {dot(150000, 10000), dot(50000, -9000), dot(20000, 8000), dot(-9000, 0),
+                                  dot(2 * mm + 9000, 0), dot(mm, 7000)});
     CHECK(added == 2 * (10000 + 9000 + 8000 + 7000) + 9000 + 9000);
     REQUIRE(plan.tracks.size() == 1);
-    CHECK(plan.tracks[0].paths[0].points == Points{{-9000, 0}, {0, 0}, {20000, 0}, {20000, 8000}, {20000, 0}, {50000, 0}, {50000, -9000}, {50000, 0},
-                                                   {mm, 0}, {mm, 7000}, {mm, 0}, {150000, 0}, {150000, 10000}, {150000, 0}, {2 * mm, 0}, {2 * mm + 9000, 0}});
+    CHECK(plan.tracks[0].paths[0].points == Points{{-9000, 0},
+                                                   {0, 0},
+                                                   {20000, 0},
+                                                   {20000, 8000},
+                                                   {20000, 0},
+                                                   {50000, 0},
+                                                   {50000, -9000},
+                                                   {50000, 0},
+                                                   {mm, 0},
+                                                   {mm, 7000},
+                                                   {mm, 0},
+                                                   {150000, 0},
+                                                   {150000, 10000},
+                                                   {150000, 0},
+                                                   {2 * mm, 0},
+                                                   {2 * mm + 9000, 0}});
 }
 
 TEST_CASE("beside a perimeter a short track, far from everything a dot") {
-    LayerPlan plan = plan_of({track(TrackKind::outer_perimeter, {{0, 0}, {5 * mm, 0}, {5 * mm, 5 * mm}, {0, 5 * mm}}, Entry::fixed, true)});
-    CHECK(lay(plan, {dot(2 * mm, 20000), dot(2 * mm, 2 * mm), {{{mm, mm}, {mm, 150000}}, TrackKind::support}}) == 20000 + 50000);
+    LayerPlan plan = plan_of(
+        {track(TrackKind::outer_perimeter, {{0, 0}, {5 * mm, 0}, {5 * mm, 5 * mm}, {0, 5 * mm}}, Entry::fixed, true)});
+    CHECK(lay(plan, {dot(2 * mm, 20000), dot(2 * mm, 2 * mm), {{{mm, mm}, {mm, 150000}}, TrackKind::support}}) ==
+          20000 + 50000);
     REQUIRE(plan.tracks.size() == 4);
     CHECK(plan.tracks[0].paths[0].points.size() == 4);
     CHECK(plan.tracks[1].paths[0].points == Points{{2 * mm, 0}, {2 * mm, 20000}});
@@ -65,8 +83,10 @@ TEST_CASE("beside a perimeter a short track, far from everything a dot") {
 }
 
 TEST_CASE("what leads to a dot goes on to the next one") {
-    LayerPlan plan = plan_of({track(TrackKind::outer_perimeter, {{0, 0}, {5 * mm, 0}, {5 * mm, 5 * mm}, {0, 5 * mm}}, Entry::fixed, true)});
-    CHECK(lay(plan, {dot(2 * mm, 2 * mm), dot(2 * mm, 2 * mm + 10000), dot(2 * mm, 2 * mm), dot(2 * mm, 25000), dot(2 * mm, 50000)}) == 10000 + 25000 + 25000);
+    LayerPlan plan = plan_of(
+        {track(TrackKind::outer_perimeter, {{0, 0}, {5 * mm, 0}, {5 * mm, 5 * mm}, {0, 5 * mm}}, Entry::fixed, true)});
+    CHECK(lay(plan, {dot(2 * mm, 2 * mm), dot(2 * mm, 2 * mm + 10000), dot(2 * mm, 2 * mm), dot(2 * mm, 25000),
+                     dot(2 * mm, 50000)}) == 10000 + 25000 + 25000);
     REQUIRE(plan.tracks.size() == 3);
     CHECK(plan.tracks[1].paths[0].points == Points{{2 * mm, 2 * mm}, {2 * mm, 2 * mm + 10000}});
     CHECK_FALSE(plan.tracks[1].paths[0].on_track);
@@ -74,13 +94,25 @@ TEST_CASE("what leads to a dot goes on to the next one") {
     CHECK(plan.tracks[2].paths[0].on_track);
 }
 
-TEST_CASE("a track prolonged to a dot, or a spur, goes on to the next one; from the middle of a way a track of its own leads there") {
+TEST_CASE(
+    "a track prolonged to a dot, or a spur, goes on to the next one; from the middle of a way a track of its own leads "
+    "there") {
     LayerPlan plan = plan_of({track(TrackKind::support, {{0, 0}, {mm, 0}})});
-    CHECK(lay(plan, {dot(mm + 10000, 0), dot(mm + 20000, 3000), dot(-10000, 0), dot(-20000, 0), dot(50000, 10000), dot(50000, 13000), dot(mm + 5000, 5000)}) ==
+    CHECK(lay(plan, {dot(mm + 10000, 0), dot(mm + 20000, 3000), dot(-10000, 0), dot(-20000, 0), dot(50000, 10000),
+                     dot(50000, 13000), dot(mm + 5000, 5000)}) ==
           round_to_lattice(10000 + std::hypot(10000, 3000) + 20000 + 2 * 13000 + 5000));
     REQUIRE(plan.tracks.size() == 2);
-    CHECK(plan.tracks[0].paths[0].points == Points{{-20000, 0}, {-10000, 0}, {0, 0}, {50000, 0}, {50000, 10000}, {50000, 13000}, {50000, 10000}, {50000, 0},
-                                                   {mm, 0}, {mm + 10000, 0}, {mm + 20000, 3000}});
+    CHECK(plan.tracks[0].paths[0].points == Points{{-20000, 0},
+                                                   {-10000, 0},
+                                                   {0, 0},
+                                                   {50000, 0},
+                                                   {50000, 10000},
+                                                   {50000, 13000},
+                                                   {50000, 10000},
+                                                   {50000, 0},
+                                                   {mm, 0},
+                                                   {mm + 10000, 0},
+                                                   {mm + 20000, 3000}});
     CHECK(plan.tracks[1].paths[0].points == Points{{mm + 5000, 0}, {mm + 5000, 5000}});
     CHECK(plan.tracks[1].paths[0].on_track);
 }
@@ -128,7 +160,8 @@ TEST_CASE("whatever the patches, they and all that was there are printed") {
         for (int t = 0; t < 4; ++t) {
             Points points{{between(0, 2 * mm), between(0, 2 * mm)}};
             for (int k = 0; k < 3; ++k) points.push_back(points.back() + Point{between(600, mm), between(600, mm)});
-            plan.tracks.push_back(track(t == 0 ? TrackKind::cover : TrackKind::support, points, t % 2 ? Entry::fixed : Entry::either_end));
+            plan.tracks.push_back(track(t == 0 ? TrackKind::cover : TrackKind::support, points,
+                                        t % 2 ? Entry::fixed : Entry::either_end));
         }
         const LayerPlan before = plan;
         std::vector<Patch> patches;
@@ -140,7 +173,8 @@ TEST_CASE("whatever the patches, they and all that was there are printed") {
             for (std::size_t p = 0; p < t.paths.size(); ++p) {
                 const Points& points = t.paths[p].points;
                 if (p > 0) CHECK(points.front() == t.paths[p - 1].points.back());
-                for (std::size_t k = 1; k < points.size(); ++k) CHECK(length(points[k] - points[k - 1]) >= static_cast<double>(shortest_step));
+                for (std::size_t k = 1; k < points.size(); ++k)
+                    CHECK(length(points[k] - points[k - 1]) >= static_cast<double>(shortest_step));
                 total += length(t.paths[p]);
             }
         CHECK(total - had == Approx(static_cast<double>(added)).margin(200));
@@ -152,19 +186,22 @@ TEST_CASE("whatever the patches, they and all that was there are printed") {
                     std::vector<Segment> steps;
                     append_segments(path, steps);
                     if (path.width >= d)
-                        for (const Segment& step : steps) nearest = std::min(nearest, test::distance(patch.segment.a, step));
+                        for (const Segment& step : steps)
+                            nearest = std::min(nearest, test::distance(patch.segment.a, step));
                 }
             CHECK(nearest <= 1);
         }
         for (std::size_t t = 0; t < before.tracks.size(); ++t) {
             Points all;
-            for (const ToolPath& path : plan.tracks[t].paths) all.insert(all.end(), path.points.begin(), path.points.end());
+            for (const ToolPath& path : plan.tracks[t].paths)
+                all.insert(all.end(), path.points.begin(), path.points.end());
             auto at = all.begin();
             for (const Point p : before.tracks[t].paths.front().points) {
                 at = std::find(at, all.end(), p);
                 REQUIRE(at != all.end());
             }
-            if (before.tracks[t].entry == Entry::fixed) CHECK(all.front() == before.tracks[t].paths.front().points.front());
+            if (before.tracks[t].entry == Entry::fixed)
+                CHECK(all.front() == before.tracks[t].paths.front().points.front());
         }
     }
 }

@@ -62,7 +62,8 @@ TEST_CASE("moves in one direction take as long as one; a corner costs time, a fu
     const MotionLimits l = limits_of(1000, 5);
     const double one = motion_seconds({move(40, 0, 80)}, l);
     CHECK(motion_seconds({move(10, 0, 80), move(10, 0, 80), move(20, 0, 80)}, l) == Approx(one));
-    const double corner = motion_seconds({move(20, 0, 80), move(0, 20, 80)}, l), back = motion_seconds({move(20, 0, 80), move(-20, 0, 80)}, l);
+    const double corner = motion_seconds({move(20, 0, 80), move(0, 20, 80)}, l),
+                 back = motion_seconds({move(20, 0, 80), move(-20, 0, 80)}, l);
     CHECK(corner > one);
     CHECK(back >= corner);
     CHECK(back < 2 * motion_seconds({move(20, 0, 80)}, l) + 1e-9);
@@ -104,8 +105,9 @@ TEST_CASE("the estimate agrees with PrusaSlicer's own within 10 % on its G-code"
     int compared = 0;
     for (const Case& c : cases) {
         const fs::path out = folder / "out.gcode";
-        const std::string command = "prusa-slicer --export-gcode --gcode-flavor marlin2 --use-relative-e-distances=0 --center 100,100 " + c.options +
-                                    " -o " + out.string() + " " + c.model.string() + " > /dev/null 2>&1";
+        const std::string command =
+            "prusa-slicer --export-gcode --gcode-flavor marlin2 --use-relative-e-distances=0 --center 100,100 " +
+            c.options + " -o " + out.string() + " " + c.model.string() + " > /dev/null 2>&1";
         if (std::system(command.c_str()) != 0) continue;
         std::ifstream in(out);
         std::stringstream text;
@@ -116,7 +118,10 @@ TEST_CASE("the estimate agrees with PrusaSlicer's own within 10 % on its G-code"
         std::istringstream words(all.substr(at + key.size(), all.find('\n', at) - at - key.size()));
         double theirs = 0;
         for (std::string word; words >> word;)
-            theirs += std::atof(word.c_str()) * (word.back() == 'd' ? 86400 : word.back() == 'h' ? 3600 : word.back() == 'm' ? 60 : 1);
+            theirs += std::atof(word.c_str()) * (word.back() == 'd'   ? 86400
+                                                 : word.back() == 'h' ? 3600
+                                                 : word.back() == 'm' ? 60
+                                                                      : 1);
         const double ours = motion_seconds(moves_of(text), MotionLimits{});
         INFO(c.model << " " << c.options << ": ours " << ours << " s, theirs " << theirs << " s");
         CHECK(ours == Approx(theirs).epsilon(0.1));

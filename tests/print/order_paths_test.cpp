@@ -35,7 +35,8 @@ LayerPaths two_islands(int layer, bool alternate, Region& outline) {
     for (std::size_t i = 0; i < 12; ++i) {
         const Unit left = i < 6 ? mm : 31 * mm, y = (3 + 2 * static_cast<Unit>(i % 6)) * mm;
         forest[2 * i] = {{left, y}, true};
-        forest[2 * i + 1] = {{left + std::uniform_int_distribution<Unit>(2 * mm, 15 * mm)(random) - 20000 * layer, y}, false};
+        forest[2 * i + 1] = {{left + std::uniform_int_distribution<Unit>(2 * mm, 15 * mm)(random) - 20000 * layer, y},
+                             false};
         add_edge(2 * i, 2 * i + 1, forest);
     }
     append_support_paths(forest, {}, plan);
@@ -48,7 +49,8 @@ Point end_of_layer(const LayerPaths& layer) { return end_of(layer.paths.back());
 }  // namespace
 
 TEST_CASE("islands: holes belong to the outer contour around them, islands in holes are their own") {
-    const Region region{square(0, 0, 20 * mm), square(5 * mm, 5 * mm, 10 * mm, true), square(8 * mm, 8 * mm, 4 * mm), square(30 * mm, 0, mm)};
+    const Region region{square(0, 0, 20 * mm), square(5 * mm, 5 * mm, 10 * mm, true), square(8 * mm, 8 * mm, 4 * mm),
+                        square(30 * mm, 0, mm)};
     const Islands islands(region);
     REQUIRE(islands.size() == 3);
     CHECK(islands.of({mm, mm}) != islands.of({9 * mm, 9 * mm}));
@@ -66,10 +68,13 @@ TEST_CASE("one island is finished before the next, perimeters before what they e
             int changes = 0;
             const bool shell_last = alternate && number % 2 == 1;
             for (std::size_t i = 1; i < layer.paths.size(); ++i) {
-                const bool same = islands.of(layer.paths[i].points.front()) == islands.of(layer.paths[i - 1].points.front());
+                const bool same =
+                    islands.of(layer.paths[i].points.front()) == islands.of(layer.paths[i - 1].points.front());
                 changes += !same;
                 if (!same) continue;
-                const auto shell = [&](std::size_t k) { return stage_of(layer.paths[k].kind) == PrintStage::perimeters; };
+                const auto shell = [&](std::size_t k) {
+                    return stage_of(layer.paths[k].kind) == PrintStage::perimeters;
+                };
                 CHECK((shell_last ? !(shell(i - 1) && !shell(i)) : !(!shell(i - 1) && shell(i))));
             }
             CHECK(changes == 1);
@@ -81,7 +86,8 @@ TEST_CASE("a layer starts near the end of the one below, on the island where tha
         double farthest = 0;
         for (int number = 0; number < 6; ++number) {
             Region outline;
-            const LayerPaths below = two_islands(number, alternate, outline), above = two_islands(number + 1, alternate, outline);
+            const LayerPaths below = two_islands(number, alternate, outline),
+                             above = two_islands(number + 1, alternate, outline);
             const Islands islands(outline);
             CHECK(islands.of(end_of_layer(below)) == islands.of(start_of(above)));
             farthest = std::max(farthest, length(start_of(above) - end_of_layer(below)));
@@ -108,7 +114,8 @@ TEST_CASE("seams stay where they are; tracks that may not be turned keep their d
             const PlannedTrack& track = planned.tracks[t];
             const auto found = std::find_if(layer.paths.begin(), layer.paths.end(), [&](const ToolPath& p) {
                 std::vector<Point> back(p.points.rbegin(), p.points.rend());
-                return p.points == track.paths[0].points || (track.entry == Entry::either_end && back == track.paths[0].points);
+                return p.points == track.paths[0].points ||
+                       (track.entry == Entry::either_end && back == track.paths[0].points);
             });
             REQUIRE(found != layer.paths.end());
             position[t] = static_cast<std::size_t>(found - layer.paths.begin());

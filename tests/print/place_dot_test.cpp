@@ -23,7 +23,8 @@ PrintedTrack printed(const Lane& lane) {
     return track;
 }
 
-/// How near to a lane a dot can be from which all that hangs, on a grid of 10 um, is in reach, on a grid of 20 um; HUGE_VAL: nowhere.
+/// How near to a lane a dot can be from which all that hangs, on a grid of 10 um, is in reach, on a grid of 20 um;
+/// HUGE_VAL: nowhere.
 double least_way(const Lane& above, const std::vector<Lane>& below) {
     const auto to_material = [&](Point p) {
         double least = HUGE_VAL;
@@ -35,11 +36,15 @@ double least_way(const Lane& above, const std::vector<Lane>& below) {
     const Point high{std::max(above.centre.a.x, above.centre.b.x), std::max(above.centre.a.y, above.centre.b.y)};
     for (Unit x = low.x - d / 2; x <= high.x + d / 2; x += 1000)
         for (Unit y = low.y - d / 2; y <= high.y + d / 2; y += 1000)
-            if (test::distance(Point{x, y}, above.centre) <= d / 2 && to_material({x, y}) > d / 2 + rho) hanging.push_back({x, y});
+            if (test::distance(Point{x, y}, above.centre) <= d / 2 && to_material({x, y}) > d / 2 + rho)
+                hanging.push_back({x, y});
     double least = HUGE_VAL;
     for (Unit x = low.x - 2 * d; x <= high.x + 2 * d; x += 2000)
         for (Unit y = low.y - 2 * d; y <= high.y + 2 * d; y += 2000)
-            if (std::all_of(hanging.begin(), hanging.end(), [&](Point p) { return length(p - Point{x, y}) <= d / 2 + rho; })) least = std::min(least, to_material({x, y}));
+            if (std::all_of(hanging.begin(), hanging.end(), [&](Point p) {
+                    return length(p - Point{x, y}) <= d / 2 + rho;
+                }))
+                least = std::min(least, to_material({x, y}));
     return least;
 }
 
@@ -80,7 +85,8 @@ TEST_CASE("a dot holds up what hangs, hardly farther from the tracks than it mus
     CHECK(placed > 100);
     CHECK(50 * held >= 49 * placed);  // what lies between samples may be missed; the judgement after it sees that
     CHECK(ways >= least - 2000 * placed);
-    CHECK(ways < least + 1400 * placed);  // 11 um on average; 16 where material that is not quite out of reach is overlooked
+    CHECK(ways <
+          least + 1400 * placed);  // 11 um on average; 16 where material that is not quite out of reach is overlooked
 }
 
 TEST_CASE("no dot where there is nothing near to join it to, or where what is there will do") {
@@ -88,7 +94,8 @@ TEST_CASE("no dot where there is nothing near to join it to, or where what is th
     const HangingStretch stretch{above, 0, d};
     CHECK_FALSE(place_dot(stretch, {}, d, rho));
     CHECK_FALSE(place_dot(stretch, {{{{0, 3 * d}, {d, 3 * d}}, d}}, d, rho));
-    CHECK_FALSE(place_dot(stretch, {{{{0, 30000}, {d, 30000}}, d / 2}}, d, rho));  // a dot would be wider than the strip
+    CHECK_FALSE(
+        place_dot(stretch, {{{{0, 30000}, {d, 30000}}, d / 2}}, d, rho));  // a dot would be wider than the strip
     const std::optional<PlacedDot> covered = place_dot(stretch, {{{{-d, 0}, {2 * d, 0}}, d}}, d, rho);
     REQUIRE(covered);
     CHECK_FALSE(covered->needed);

@@ -48,13 +48,15 @@ TEST_CASE("a profile says what it says and leaves the rest") {
 TEST_CASE("bad profiles are refused with the key and the line") {
     CHECK(refusal(temperatures + "retration = 3\n").find("my.ini:3: retration: no such key") == 0);
     CHECK(refusal("nozzle_temperature = hot\n").find("my.ini:1: nozzle_temperature: 'hot' is not a number") == 0);
-    CHECK(refusal("bed_temperature = 60\nretraction = 3 mm\n").find("my.ini:2: retraction: '3 mm' is not a number") == 0);
+    CHECK(refusal("bed_temperature = 60\nretraction = 3 mm\n").find("my.ini:2: retraction: '3 mm' is not a number") ==
+          0);
     CHECK(refusal("bed_temperature = 60\n").find("my.ini:1: nozzle_temperature: missing") == 0);
     CHECK(refusal("nozzle_temperature = 200\n").find("bed_temperature: missing") != std::string::npos);
     CHECK(refusal(temperatures + "print_speed = -4\n").find("my.ini:3: print_speed:") == 0);
     CHECK(refusal(temperatures + "bed = 1,2\n").find("my.ini:3: bed:") == 0);
     CHECK(refusal(temperatures + "flavour = sailfish\n").find("my.ini:3: flavour: 'sailfish'") == 0);
-    CHECK(refusal(temperatures + "bed_temperature = 60\n").find("my.ini:3: bed_temperature: given already on line 2") == 0);
+    CHECK(refusal(temperatures + "bed_temperature = 60\n").find("my.ini:3: bed_temperature: given already on line 2") ==
+          0);
     CHECK(refusal(temperatures + "start_gcode = G1 {speed}\n").find("my.ini:3: start_gcode:") == 0);
     CHECK(refusal(temperatures + "start_gcode = G1 {speed}\n").find("{speed}") != std::string::npos);
     CHECK(refusal(temperatures + "hello\n").find("my.ini:3: 'hello' is no setting") == 0);
@@ -117,7 +119,8 @@ TEST_CASE("a PrusaSlicer bundle: the presets it names, with what they inherit; t
     CHECK(p.start_gcode == "M104 S{nozzle_temperature}\nG28");
     CHECK(p.end_gcode == end);
     const auto ignored = [&](const std::string& key) {
-        return std::any_of(imported.ignored.begin(), imported.ignored.end(), [&](const std::string& i) { return i.find(key) == 0; });
+        return std::any_of(imported.ignored.begin(), imported.ignored.end(),
+                           [&](const std::string& i) { return i.find(key) == 0; });
     };
     CHECK(ignored("fill_density"));
     CHECK(ignored("seam_position ("));
@@ -133,7 +136,10 @@ TEST_CASE("a flat PrusaSlicer config is taken whole; a bad number is refused wit
     CHECK(s.layer_height == 10000);
     CHECK(p.origin_at_centre);
     CHECK(p.bed_x == 180);
-    CHECK_THROWS_WITH(import_prusaslicer("a = 1\ntemperature = warm\n", "c.ini", s, t, p), Catch::Contains("c.ini:2: temperature: 'warm'"));
-    CHECK_THROWS_WITH(import_prusaslicer("layer_height = thin\n", "c.ini", s, t, p), Catch::Contains("c.ini:1: layer_height"));
-    CHECK_THROWS_WITH(import_prusaslicer("colour = red\n", "c.ini", s, t, p), Catch::Contains("no setting that we know"));
+    CHECK_THROWS_WITH(import_prusaslicer("a = 1\ntemperature = warm\n", "c.ini", s, t, p),
+                      Catch::Contains("c.ini:2: temperature: 'warm'"));
+    CHECK_THROWS_WITH(import_prusaslicer("layer_height = thin\n", "c.ini", s, t, p),
+                      Catch::Contains("c.ini:1: layer_height"));
+    CHECK_THROWS_WITH(import_prusaslicer("colour = red\n", "c.ini", s, t, p),
+                      Catch::Contains("no setting that we know"));
 }

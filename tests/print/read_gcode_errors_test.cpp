@@ -13,21 +13,26 @@ const std::string good = "M83\nG1 Z.2\nG1 X10 E1\n";
 }
 
 TEST_CASE("malformed lines: which line, and what was expected", "[gcode][errors]") {
-    CHECK_THAT(complaint(good + "G1 X1 Yabc E1\n"), Contains("test.gcode, line 4") && Contains("'abc") && Contains("number of Y"));
-    CHECK_THAT(complaint(good + "G1 X\n"), Contains("line 4") && Contains("the line ends where the number of X should"));
+    CHECK_THAT(complaint(good + "G1 X1 Yabc E1\n"),
+               Contains("test.gcode, line 4") && Contains("'abc") && Contains("number of Y"));
+    CHECK_THAT(complaint(good + "G1 X\n"),
+               Contains("line 4") && Contains("the line ends where the number of X should"));
     CHECK_THAT(complaint(good + "\n\nG1 X1,5 E1\n"), Contains("line 6") && Contains("',5 E1'") && Contains("letter"));
     CHECK_THAT(complaint(good + "G1 X1 X2 E1\n"), Contains("line 4") && Contains("X stands there twice"));
     CHECK_THAT(complaint(good + "G1 Xnan E1\n"), Contains("line 4") && Contains("number of X"));
     CHECK_THAT(complaint(good + "G1 X99999999 E1\n"), Contains("line 4") && Contains("10000000 or more"));
-    CHECK_THAT(complaint(good + "G1 X.1234567890123456789 E1\n"), Contains("line 4") && Contains("more than 18 decimals"));
+    CHECK_THAT(complaint(good + "G1 X.1234567890123456789 E1\n"),
+               Contains("line 4") && Contains("more than 18 decimals"));
     CHECK_THAT(complaint(good + "G1 X1 {temperature}\n"), Contains("line 4") && Contains("'{temperature}'"));
     CHECK_THAT(complaint(good + "G92 E-\n"), Contains("line 4") && Contains("number of E"));
-    CHECK_THAT(complaint(good + std::string(200, ' ') + "\nG1 X1 \x01\x02 E1\n"), Contains("line 5") && Contains("'?? E1'"));
+    CHECK_THAT(complaint(good + std::string(200, ' ') + "\nG1 X1 \x01\x02 E1\n"),
+               Contains("line 5") && Contains("'?? E1'"));
 }
 
 TEST_CASE("arcs that cannot be", "[gcode][errors]") {
     CHECK_THAT(complaint(good + "G2 X20 E1\n"), Contains("line 4") && Contains("expected I and J, or R"));
-    CHECK_THAT(complaint(good + "G2 X20 Y0 I3 J0 E1\n"), Contains("line 4") && Contains("3.000 mm and 7.000 mm from its centre"));
+    CHECK_THAT(complaint(good + "G2 X20 Y0 I3 J0 E1\n"),
+               Contains("line 4") && Contains("3.000 mm and 7.000 mm from its centre"));
     CHECK_THAT(complaint(good + "G2 X20 Y0 R3 E1\n"), Contains("line 4") && Contains("expected at least half"));
     CHECK_THAT(complaint(good + "G2 X20 Y0 R0 E1\n"), Contains("line 4") && Contains("radius 0"));
     CHECK_THAT(complaint(good + "G2 R5 E1\n"), Contains("line 4") && Contains("expected I and J"));
@@ -105,7 +110,8 @@ TEST_CASE("block borders do not matter", "[gcode][errors]") {
     std::string text = "M83\nG1 Z.2\n";
     std::size_t moves = 0;
     while (text.size() < 1500000) {
-        text += "G1 X" + std::to_string(moves % 100) + " Y" + std::to_string(moves % 7) + " E1 ;" + std::string(moves % 91, 'c') + "\n";
+        text += "G1 X" + std::to_string(moves % 100) + " Y" + std::to_string(moves % 7) + " E1 ;" +
+                std::string(moves % 91, 'c') + "\n";
         ++moves;
     }
     const ScratchFolder folder;

@@ -20,7 +20,9 @@ TEST_CASE("layers come from extrusions, not from comments", "[gcode]") {
 }
 
 TEST_CASE("a Z-hop is no layer", "[gcode]") {
-    const GcodePrint print = read("M83\nG1 Z.2\nG1 X10 E1\nG1 E-1\nG1 Z.6\nG1 X0 Y5\nG1 Z.2\nG1 E1\nG1 X10 E1\nG1 X11 Y9 Z1.5\nG1 Z.4\nG1 X0 E1\n");
+    const GcodePrint print = read(
+        "M83\nG1 Z.2\nG1 X10 E1\nG1 E-1\nG1 Z.6\nG1 X0 Y5\nG1 Z.2\nG1 E1\nG1 X10 E1\nG1 X11 Y9 Z1.5\nG1 Z.4\nG1 X0 "
+        "E1\n");
     CHECK(heights_of_layers(print) == std::set<std::string>{"1/5", "2/5"});
 }
 
@@ -48,20 +50,24 @@ TEST_CASE("a bridge is part of its layer, whatever height its thread has", "[gco
 }
 
 TEST_CASE("heights that differ by rounding are one height", "[gcode]") {
-    const GcodePrint print = read(";TYPE:a\nM83\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\n;HEIGHT:0.200001\nG1 X20 E1\n;HEIGHT:0.199999\nG1 X30 E1\n");
+    const GcodePrint print = read(
+        ";TYPE:a\nM83\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\n;HEIGHT:0.200001\nG1 X20 E1\n;HEIGHT:0.199999\nG1 X30 E1\n");
     REQUIRE(print.layers.size() == 1);
     CHECK(print.layers[0].height == 200000000);
 }
 
 TEST_CASE("objects printed one after the other share layers", "[gcode]") {
-    const GcodePrint print = read("M83\nG1 Z.2\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\nG1 Z5\nG1 X50\nG1 Z.2\nG1 X60 E1\nG1 Z.4\nG1 X50 E1\n");
+    const GcodePrint print =
+        read("M83\nG1 Z.2\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\nG1 Z5\nG1 X50\nG1 Z.2\nG1 X60 E1\nG1 Z.4\nG1 X50 E1\n");
     REQUIRE(print.layers.size() == 2);
     CHECK(print.layers[0].tracks.size() == 2);
     CHECK(print.layers[1].tracks.size() == 2);
 }
 
 TEST_CASE("infill of two layers' height rests on what ends at its bottom", "[gcode]") {
-    const GcodePrint print = read("M83\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\nG1 Z.6\nG1 X10 E1\nG1 Z.8\nG1 X0 E1\n;HEIGHT:0.4\nG1 X5 E1\n;HEIGHT:.2\nG1 Z1\nG1 X0 E1\n");
+    const GcodePrint print = read(
+        "M83\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\nG1 Z.6\nG1 X10 E1\nG1 Z.8\nG1 X0 "
+        "E1\n;HEIGHT:0.4\nG1 X5 E1\n;HEIGHT:.2\nG1 Z1\nG1 X0 E1\n");
     REQUIRE(print.layers.size() == 6);
     CHECK(print.layer_count == 5);
     CHECK(print.layers[3].below == std::vector<std::size_t>{2});
@@ -72,14 +78,17 @@ TEST_CASE("infill of two layers' height rests on what ends at its bottom", "[gco
 }
 
 TEST_CASE("supports at heights of their own hold up what they reach", "[gcode]") {
-    const GcodePrint print = read("M83\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\n;TYPE:Support\nG1 Z.3\nG1 X0 E1\n;TYPE:p\nG1 Z.4\nG1 X10 E1\n");
+    const GcodePrint print = read(
+        "M83\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\n;TYPE:Support\nG1 Z.3\nG1 X0 E1\n;TYPE:p\nG1 Z.4\nG1 X10 E1\n");
     REQUIRE(print.layers.size() == 3);
-    CHECK(print.layers[1].below == std::vector<std::size_t>{0});  // from 0.1 to 0.3: its bottom lies within the first layer
+    CHECK(print.layers[1].below ==
+          std::vector<std::size_t>{0});  // from 0.1 to 0.3: its bottom lies within the first layer
     CHECK(print.layers[2].below == std::vector<std::size_t>{0, 1});
 }
 
 TEST_CASE("under layers of air nothing is directly below; what is next farther down is known", "[gcode]") {
-    const GcodePrint print = read("M83\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\nG1 Z1.2\nG1 X10 E1\nG1 Z1.4\nG1 X0 E1\n");
+    const GcodePrint print =
+        read("M83\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\nG1 Z1.2\nG1 X10 E1\nG1 Z1.4\nG1 X0 E1\n");
     REQUIRE(print.layers.size() == 4);
     CHECK(print.layers[2].below.empty());
     CHECK_FALSE(print.layers[2].on_bed);
@@ -90,7 +99,8 @@ TEST_CASE("under layers of air nothing is directly below; what is next farther d
 }
 
 TEST_CASE("over a gap the nearest layer below counts", "[gcode]") {
-    const GcodePrint print = read("M83\n;TYPE:raft\n;HEIGHT:0.3\nG1 Z.3\nG1 X10 E1\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.65\nG1 X0 E1\n");
+    const GcodePrint print =
+        read("M83\n;TYPE:raft\n;HEIGHT:0.3\nG1 Z.3\nG1 X10 E1\n;TYPE:p\n;HEIGHT:0.2\nG1 Z.65\nG1 X0 E1\n");
     REQUIRE(print.layers.size() == 2);
     CHECK_FALSE(print.layers[1].on_bed);
     CHECK(print.layers[1].below == std::vector<std::size_t>{0});
@@ -104,7 +114,8 @@ TEST_CASE("an offset of all heights leaves the first layer on the bed", "[gcode]
 
 TEST_CASE("a spiral vase has one layer a turn, not one a move", "[gcode]") {
     std::string text = "M83\n;TYPE:External perimeter\n;HEIGHT:0.2\n;WIDTH:0.4\n";
-    for (const char* z : {".2", ".4"}) text += std::string("G1 X0 Y0 Z") + z + "\nG1 X10 E1\nG1 Y10 E1\nG1 X0 E1\nG1 Y0 E1\n";
+    for (const char* z : {".2", ".4"})
+        text += std::string("G1 X0 Y0 Z") + z + "\nG1 X10 E1\nG1 Y10 E1\nG1 X0 E1\nG1 Y0 E1\n";
     const int turns = 10;
     const char* corners[] = {"X10 Y0", "X10 Y10", "X0 Y10", "X0 Y0"};
     for (int k = 1; k <= 4 * turns; ++k) {
@@ -122,7 +133,9 @@ TEST_CASE("a spiral vase has one layer a turn, not one a move", "[gcode]") {
 }
 
 TEST_CASE("a seam that ramps up belongs to the layer it climbs to", "[gcode]") {
-    const GcodePrint print = read("M83\n;TYPE:Outer wall\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\nG1 Z.2\nG1 X0 Y0\nG1 X1 Z.3 E1\nG1 X2 Z.4 E1\nG1 X10 E1\nG1 X10 Y9 E1\n");
+    const GcodePrint print = read(
+        "M83\n;TYPE:Outer wall\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\nG1 Z.2\nG1 X0 Y0\nG1 X1 Z.3 E1\nG1 X2 Z.4 E1\nG1 X10 "
+        "E1\nG1 X10 Y9 E1\n");
     CHECK(print.layer_count == 2);
     CHECK(print.layers[1].tracks.size() == 4);
 }

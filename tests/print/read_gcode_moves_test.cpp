@@ -10,7 +10,8 @@ using namespace ribvault::test;
 namespace {
 
 /// The ends of the only track.
-void check_track(const std::string& text, const std::string& x0, const std::string& y0, const std::string& x1, const std::string& y1) {
+void check_track(const std::string& text, const std::string& x0, const std::string& y0, const std::string& x1,
+                 const std::string& y1) {
     const GcodePrint print = read(text);
     REQUIRE(print.layers.size() == 1);
     REQUIRE(print.layers[0].tracks.size() == 1);
@@ -68,7 +69,9 @@ TEST_CASE("G92 E0 starts E anew", "[gcode]") {
 }
 
 TEST_CASE("every tool has its own E and its own filament", "[gcode]") {
-    const GcodePrint print = read("; filament_diameter = 1.75,2.85\nM82\nG1 Z.2\nT0\nG1 X10 E1\nT1\nG1 X20 E1\nT0\nG1 X30 E2\nT1000\nG1 X40 E3\n");
+    const GcodePrint print = read(
+        "; filament_diameter = 1.75,2.85\nM82\nG1 Z.2\nT0\nG1 X10 E1\nT1\nG1 X20 E1\nT0\nG1 X30 E2\nT1000\nG1 X40 "
+        "E3\n");
     REQUIRE(print.layers[0].tracks.size() == 4);
     CHECK(width(track(print, 0, 1)) / width(track(print, 0, 0)) == Approx(2.85 * 2.85 / (1.75 * 1.75)).epsilon(0.01));
     CHECK(track(print, 0, 2).width == track(print, 0, 0).width);
@@ -101,7 +104,8 @@ TEST_CASE("volumetric E counts cubic millimetres", "[gcode]") {
 TEST_CASE("short stretches share one flow", "[gcode]") {
     // E rounded to 5 places on stretches of 0.01 mm would scatter widths by a tenth.
     std::string text = "M83\nG1 Z.2\n";
-    for (int k = 1; k <= 100; ++k) text += "G1 X" + std::to_string(0.01 * k) + " E" + (k % 3 == 0 ? "0.00034" : "0.00033") + "\n";
+    for (int k = 1; k <= 100; ++k)
+        text += "G1 X" + std::to_string(0.01 * k) + " E" + (k % 3 == 0 ? "0.00034" : "0.00033") + "\n";
     const GcodePrint print = read(text);
     for (const GcodeTrack& t : print.layers[0].tracks) CHECK(width(t) == Approx(0.4).margin(0.003));
 }
@@ -112,18 +116,22 @@ TEST_CASE("how words are written does not matter", "[gcode]") {
 }
 
 TEST_CASE("commands that move nothing are passed over", "[gcode]") {
-    check_track("M117 X is 5, E too\nSTART_PRINT BED=60 X=1\nEXCLUDE_OBJECT_DEFINE NAME=a POLYGON=[[1,2],[3,4]]\nG4 P500\nG10\nG11\nG29\n"
-                "M486 S0\nT?\nG1 X1 Y2 Z.2\nG1 X3 Y4 E1\n", "1", "2", "3", "4");
+    check_track(
+        "M117 X is 5, E too\nSTART_PRINT BED=60 X=1\nEXCLUDE_OBJECT_DEFINE NAME=a POLYGON=[[1,2],[3,4]]\nG4 "
+        "P500\nG10\nG11\nG29\n"
+        "M486 S0\nT?\nG1 X1 Y2 Z.2\nG1 X3 Y4 E1\n",
+        "1", "2", "3", "4");
 }
 
 TEST_CASE("arcs become chords within the stated bound", "[gcode][arc]") {
     struct Case { const char* text; double cx, cy, radius, turn; };
     const double pi = std::numbers::pi;
-    for (const Case& c : {Case{"G2 X0 Y10 I-10 J0 E1", 0, 0, 10, 1.5 * pi}, Case{"G3 X0 Y10 I-10 J0 E1", 0, 0, 10, 0.5 * pi},
-                          Case{"G3 X10 Y0 I-10 J0 E1", 0, 0, 10, 2 * pi}, Case{"G2 I-10 E1", 0, 0, 10, 2 * pi},
-                          Case{"G3 X0 Y10 R10 E1", 0, 0, 10, 0.5 * pi}, Case{"G2 X0 Y10 R-10 E1", 0, 0, 10, 1.5 * pi},
-                          Case{"G2 X0 Y10 R10 E1", 10, 10, 10, 0.5 * pi}, Case{"G3 X0 Y10 R-10 E1", 10, 10, 10, 1.5 * pi},
-                          Case{"G3 X-10 Y0 R10 E1", 0, 0, 10, pi}, Case{"G3 X-10 Y0.001 I-10 J0 E1", 0, 0, 10, pi}}) {
+    for (const Case& c :
+         {Case{"G2 X0 Y10 I-10 J0 E1", 0, 0, 10, 1.5 * pi}, Case{"G3 X0 Y10 I-10 J0 E1", 0, 0, 10, 0.5 * pi},
+          Case{"G3 X10 Y0 I-10 J0 E1", 0, 0, 10, 2 * pi}, Case{"G2 I-10 E1", 0, 0, 10, 2 * pi},
+          Case{"G3 X0 Y10 R10 E1", 0, 0, 10, 0.5 * pi}, Case{"G2 X0 Y10 R-10 E1", 0, 0, 10, 1.5 * pi},
+          Case{"G2 X0 Y10 R10 E1", 10, 10, 10, 0.5 * pi}, Case{"G3 X0 Y10 R-10 E1", 10, 10, 10, 1.5 * pi},
+          Case{"G3 X-10 Y0 R10 E1", 0, 0, 10, pi}, Case{"G3 X-10 Y0.001 I-10 J0 E1", 0, 0, 10, pi}}) {
         INFO(c.text);
         const GcodePrint print = read(std::string("G1 X10 Y0 Z.2\n") + c.text + "\n");
         const GcodeLayer& l = print.layers[0];
@@ -155,7 +163,8 @@ TEST_CASE("an arc's flow is that of its length", "[gcode][arc]") {
 
 TEST_CASE("arcs in inches and relative coordinates", "[gcode][arc]") {
     const GcodePrint print = read("G20\nG1 X1 Y0 Z.01\nG91\nG3 X-1 Y1 I-1 J0 E1\n");
-    for (const GcodePoint& p : print.layers[0].points) CHECK(std::hypot(to_double(p.x), to_double(p.y)) == Approx(25.4).margin(1e-8));
+    for (const GcodePoint& p : print.layers[0].points)
+        CHECK(std::hypot(to_double(p.x), to_double(p.y)) == Approx(25.4).margin(1e-8));
     CHECK(x(print.layers[0].points.back()) == 0);
 }
 
@@ -169,11 +178,13 @@ TEST_CASE("filament at rest: dots in ribvault's files, priming elsewhere", "[gco
 }
 
 TEST_CASE("tracks of one path are told from those after a travel", "[gcode]") {
-    const GcodePrint print = read("M83\nG1 Z.2\nG1 X10 E1\n;TYPE:Overhang perimeter\nG1 X20 E1\nG1 X10\nG1 X20\nG1 X30 E1\n");
+    const GcodePrint print =
+        read("M83\nG1 Z.2\nG1 X10 E1\n;TYPE:Overhang perimeter\nG1 X20 E1\nG1 X10\nG1 X20\nG1 X30 E1\n");
     // the first one was start G-code: a type came after it
     REQUIRE(print.layers[0].tracks.size() == 2);
     CHECK_FALSE(print.layers[0].tracks[1].continues);
-    const GcodePrint path = read("M83\nG1 Z.2\n;TYPE:Perimeter\nG1 X10 E1\n;TYPE:Overhang perimeter\nG1 X20 E1\nG1 X30\nG1 X20\nG1 X25 E1\n");
+    const GcodePrint path = read(
+        "M83\nG1 Z.2\n;TYPE:Perimeter\nG1 X10 E1\n;TYPE:Overhang perimeter\nG1 X20 E1\nG1 X30\nG1 X20\nG1 X25 E1\n");
     CHECK(path.layers[0].tracks[1].continues);
     CHECK_FALSE(path.layers[0].tracks[2].continues);
 }

@@ -41,7 +41,8 @@ Slice slice_of(Region outline, int layer = 0) {
     return slice;
 }
 
-LayerPaths shell_paths(const Region& outline, const Region& cavity, const Settings& settings, int layer = 0, TrackSettings tracks = {}) {
+LayerPaths shell_paths(const Region& outline, const Region& cavity, const Settings& settings, int layer = 0,
+                       TrackSettings tracks = {}) {
     LayerPlan plan;
     plan.layer = layer;
     append_shell_paths(slice_of(outline, layer), cavity, settings, tracks, plan);
@@ -49,7 +50,8 @@ LayerPaths shell_paths(const Region& outline, const Region& cavity, const Settin
 }
 
 /// Every postcondition of append_shell_paths.
-void check_shell(const Region& outline, const Region& cavity, const Settings& settings, const LayerPaths& layer, Unit resolution) {
+void check_shell(const Region& outline, const Region& cavity, const Settings& settings, const LayerPaths& layer,
+                 Unit resolution) {
     const double rounding = clipper + static_cast<double>(resolution);
     const auto d = static_cast<double>(settings.nozzle);
     const std::vector<Segment> border = segments(outline), inner = segments(cavity);
@@ -216,7 +218,8 @@ TEST_CASE("a wedge gets a thin wall whose width follows it, inside the slice, up
         if (path.kind != TrackKind::thin_wall) continue;
         widest = std::max(widest, path.width), narrowest = std::min(narrowest, path.width);
         CHECK(distance(segments(path), segments(wedge)) >= static_cast<double>(path.width) / 2 - 2);
-        for (Point p : path.points) from = std::min(from, static_cast<double>(p.x)), to = std::max(to, static_cast<double>(p.x));
+        for (Point p : path.points)
+            from = std::min(from, static_cast<double>(p.x)), to = std::max(to, static_cast<double>(p.x));
     }
     CHECK(narrowest == 20000);
     CHECK(widest >= 34000);
@@ -230,8 +233,18 @@ TEST_CASE("a wedge gets a thin wall whose width follows it, inside the slice, up
 
 TEST_CASE("the printed shell fills slices that a thin wall crosses: what has no material is reported") {
     // Two blocks joined by a wall of 0.3 mm.
-    const Region outline{{{0, 0}, {5 * mm, 0}, {5 * mm, 2 * mm}, {12 * mm, 2 * mm}, {12 * mm, 0}, {17 * mm, 0}, {17 * mm, 5 * mm},
-                          {12 * mm, 5 * mm}, {12 * mm, 230000}, {5 * mm, 230000}, {5 * mm, 5 * mm}, {0, 5 * mm}}};
+    const Region outline{{{0, 0},
+                          {5 * mm, 0},
+                          {5 * mm, 2 * mm},
+                          {12 * mm, 2 * mm},
+                          {12 * mm, 0},
+                          {17 * mm, 0},
+                          {17 * mm, 5 * mm},
+                          {12 * mm, 5 * mm},
+                          {12 * mm, 230000},
+                          {5 * mm, 230000},
+                          {5 * mm, 5 * mm},
+                          {0, 5 * mm}}};
     const LayerPaths layer = shell_paths(outline, {}, Settings{});
     double wall = 0;
     for (const ToolPath& path : layer.paths)
@@ -245,13 +258,15 @@ TEST_CASE("the printed shell fills slices that a thin wall crosses: what has no 
 }
 
 TEST_CASE("a thin wall with a small bump stays one track") {
-    const Region outline{{{0, 0}, {10 * mm, 0}, {10 * mm, 32000}, {510000, 32000}, {505000, 38000}, {500000, 32000}, {0, 32000}}};
+    const Region outline{
+        {{0, 0}, {10 * mm, 0}, {10 * mm, 32000}, {510000, 32000}, {505000, 38000}, {500000, 32000}, {0, 32000}}};
     LayerPlan plan;
     append_shell_paths(slice_of(outline), {}, {}, {}, plan);
     CHECK(plan.tracks.size() == 1);
 }
 
-TEST_CASE("a strip between perimeter and cavity too narrow for a cover is filled with its width, or its area reported") {
+TEST_CASE(
+    "a strip between perimeter and cavity too narrow for a cover is filled with its width, or its area reported") {
     const Region outline{rectangle(0, 0, 20 * mm, 20 * mm)};
     const auto layer = [&](Unit strip) {
         TrackSettings tracks;
@@ -269,7 +284,8 @@ TEST_CASE("a strip between perimeter and cavity too narrow for a cover is filled
     CHECK(length_of_strip > 18.5 * mm);
     CHECK(filled.unfilled_area < 1e9);
     const LayerPaths open = layer(15000);
-    CHECK(std::none_of(open.paths.begin(), open.paths.end(), [](const ToolPath& p) { return p.kind == TrackKind::thin_wall; }));
+    CHECK(std::none_of(open.paths.begin(), open.paths.end(),
+                       [](const ToolPath& p) { return p.kind == TrackKind::thin_wall; }));
     CHECK(open.unfilled_area == Approx(15000.0 * 19.2 * mm).epsilon(0.01));
     CHECK(open.thin_places == 0);
 }
@@ -281,17 +297,20 @@ TEST_CASE("perimeters come outer first or inner first, each after its neighbour"
     for (const bool inner_first : {false, true}) {
         TrackSettings tracks;
         tracks.inner_first = inner_first;
-        const LayerPaths layer = shell_paths(outline, {rectangle(2 * mm, 2 * mm, 4 * mm, 18 * mm)}, settings, 2, tracks);
+        const LayerPaths layer =
+            shell_paths(outline, {rectangle(2 * mm, 2 * mm, 4 * mm, 18 * mm)}, settings, 2, tracks);
         std::vector<double> to_outside, to_hole;
         for (const ToolPath& path : layer.paths) {
             if (!path.closed) continue;
-            const double outside = distance(segments(path), segments({outline[0]})), hole = distance(segments(path), segments({outline[1]}));
+            const double outside = distance(segments(path), segments({outline[0]})),
+                         hole = distance(segments(path), segments({outline[1]}));
             (outside < hole ? to_outside : to_hole).push_back(std::min(outside, hole));
         }
         REQUIRE(to_outside.size() == 3);
         REQUIRE(to_hole.size() == 3);
         for (const auto& rings : {to_outside, to_hole})
-            CHECK(std::is_sorted(rings.begin(), rings.end(), [&](double a, double b) { return inner_first ? a > b : a < b; }));
+            CHECK(std::is_sorted(rings.begin(), rings.end(),
+                                 [&](double a, double b) { return inner_first ? a > b : a < b; }));
     }
 }
 
@@ -307,7 +326,9 @@ TEST_CASE("the seam lies at the rear, at the sharpest corner, or anywhere") {
             return shell_paths({outline}, {}, Settings{}, 0, tracks).paths.front().points.front();
         };
         CHECK(length(seam(Seam::corner) - outline[2]) < 80000);  // where it turns by 143 degrees
-        for (Point p : outline) CHECK(5 * seam(Seam::aligned).y - 2 * seam(Seam::aligned).x >= 5 * p.y - 2 * p.x - 12 * 40000);  // but for the corner's inset
+        for (Point p : outline)
+            CHECK(5 * seam(Seam::aligned).y - 2 * seam(Seam::aligned).x >=
+                  5 * p.y - 2 * p.x - 12 * 40000);  // but for the corner's inset
     }
 }
 
@@ -349,7 +370,8 @@ TEST_CASE("concentric covers follow the border, d apart, and leave no middle unf
     double material = 0;
     for (const ToolPath& path : layer.paths) {
         material += length(path) * static_cast<double>(path.width);
-        if (path.kind == TrackKind::cover && path.closed) CHECK(distance(segments(path), segments(outline)) >= 60000 - clipper);
+        if (path.kind == TrackKind::cover && path.closed)
+            CHECK(distance(segments(path), segments(outline)) >= 60000 - clipper);
     }
     CHECK(material > 0.95 * mm * mm * 100);
     CHECK(material < 1.01 * mm * mm * 100);
@@ -360,8 +382,10 @@ TEST_CASE("the first layer's tracks have its width, those above d") {
     tracks.first_layer_width = 50000;
     const Region outline{rectangle(0, 0, 10 * mm, 10 * mm)};
     for (const int number : {0, 1})
-        for (const ToolPath& path : shell_paths(outline, {}, Settings{}, number, tracks).paths) CHECK(path.width == (number == 0 ? 50000 : 40000));
-    CHECK(distance(segments(shell_paths(outline, {}, Settings{}, 0, tracks).paths.front()), segments(outline)) == 25000);
+        for (const ToolPath& path : shell_paths(outline, {}, Settings{}, number, tracks).paths)
+            CHECK(path.width == (number == 0 ? 50000 : 40000));
+    CHECK(distance(segments(shell_paths(outline, {}, Settings{}, 0, tracks).paths.front()), segments(outline)) ==
+          25000);
     tracks.first_layer_width = 30000;
     CHECK_THROWS_WITH(tracks.check(40000), Catch::Contains("--first-layer-width"));
 }

@@ -31,15 +31,22 @@ Problem random_problem(std::mt19937_64& random, std::size_t n, double share_afte
         else
             stop.last = point();
         stop.ring = &p.rings[i];
-        if (i > 0 && std::bernoulli_distribution(share_after)(random)) stop.after = std::uniform_int_distribution<std::size_t>(0, i - 1)(random);
+        if (i > 0 && std::bernoulli_distribution(share_after)(random))
+            stop.after = std::uniform_int_distribution<std::size_t>(0, i - 1)(random);
         p.stops.push_back(stop);
     }
     return p;
 }
 
-Point in(const TourStop& s, std::size_t way) { return s.entry == Entry::anywhere ? (*s.ring)[way] : way == 0 ? s.first : s.last; }
-Point out(const TourStop& s, std::size_t way) { return s.entry == Entry::anywhere ? (*s.ring)[way] : way == 0 ? s.last : s.first; }
-std::size_t ways(const TourStop& s) { return s.entry == Entry::fixed ? 1 : s.entry == Entry::either_end ? 2 : s.ring->size(); }
+Point in(const TourStop& s, std::size_t way) {
+    return s.entry == Entry::anywhere ? (*s.ring)[way] : way == 0 ? s.first : s.last;
+}
+Point out(const TourStop& s, std::size_t way) {
+    return s.entry == Entry::anywhere ? (*s.ring)[way] : way == 0 ? s.last : s.first;
+}
+std::size_t ways(const TourStop& s) {
+    return s.entry == Entry::fixed ? 1 : s.entry == Entry::either_end ? 2 : s.ring->size();
+}
 
 double travel(const Problem& p, const std::vector<Visit>& tour, Point from, std::optional<Point> to) {
     double sum = 0;
@@ -67,7 +74,8 @@ double shortest(const Problem& p, Point from, std::optional<Point> to) {
         bool allowed = true;
         for (std::size_t k = 0; k < order.size() && allowed; ++k) {
             const std::size_t after = p.stops[order[k]].after;
-            allowed = after == no_stop || std::find(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(k), after) != order.begin() + static_cast<std::ptrdiff_t>(k);
+            allowed = after == no_stop || std::find(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(k),
+                                                    after) != order.begin() + static_cast<std::ptrdiff_t>(k);
         }
         if (!allowed) continue;
         // Least travel to be at each way's exit of the stop before.
@@ -125,9 +133,11 @@ TEST_CASE("large tours: allowed, shorter than going to the nearest, the same eve
     for (const std::size_t n : {50u, 200u, 399u, 800u})
         for (const double share_after : {0.0, 0.7}) {
             const Problem p = random_problem(random, n, share_after);
-            const auto tour = short_tour(p.stops, {0, 0}, std::nullopt), again = short_tour(p.stops, {0, 0}, std::nullopt);
+            const auto tour = short_tour(p.stops, {0, 0}, std::nullopt),
+                       again = short_tour(p.stops, {0, 0}, std::nullopt);
             check_tour(p, tour);
-            CHECK(std::equal(tour.begin(), tour.end(), again.begin(), [](Visit a, Visit b) { return a.stop == b.stop && a.way == b.way; }));
+            CHECK(std::equal(tour.begin(), tour.end(), again.begin(),
+                             [](Visit a, Visit b) { return a.stop == b.stop && a.way == b.way; }));
             INFO(n << " stops: " << travel(p, tour, {0, 0}, std::nullopt) / greedy(p, {0, 0}));
             CHECK(travel(p, tour, {0, 0}, std::nullopt) < (n <= 400 ? 0.96 : 0.99) * greedy(p, {0, 0}));
         }

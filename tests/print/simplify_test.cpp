@@ -24,7 +24,8 @@ Contour wavy(std::mt19937& random, std::size_t n, Unit radius, Unit noise) {
 
 double distance(Point p, const Contour& ring) {
     double least = HUGE_VAL;
-    for (std::size_t k = 0; k < ring.size(); ++k) least = std::min(least, std::sqrt(squared_distance(p, Segment{ring[k], ring[(k + 1) % ring.size()]}).value()));
+    for (std::size_t k = 0; k < ring.size(); ++k)
+        least = std::min(least, std::sqrt(squared_distance(p, Segment{ring[k], ring[(k + 1) % ring.size()]}).value()));
     return least;
 }
 
@@ -46,7 +47,8 @@ TEST_CASE("vertices go that are within the tolerance, in whatever order the cont
 }
 
 TEST_CASE("corners stay, and so does what is smaller than the tolerance") {
-    const Contour square{{0, 0}, {50000, 3}, {100000, 0}, {100000, 100000}, {0, 100000}, {-2, 40000}}, speck{{20000, 20000}, {20000, 20100}, {20100, 20000}};
+    const Contour square{{0, 0}, {50000, 3}, {100000, 0}, {100000, 100000}, {0, 100000}, {-2, 40000}},
+        speck{{20000, 20000}, {20000, 20100}, {20100, 20000}};
     const Region simple = simplify({square, speck}, 500);
     REQUIRE(simple.size() == 2);
     CHECK(simple[0].size() == 5);  // begins at the leftmost vertex, whatever it is

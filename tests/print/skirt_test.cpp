@@ -8,7 +8,8 @@ using namespace ribvault::test;
 
 namespace {
 constexpr Unit mm = units_per_mm;
-const Region two{{{0, 0}, {10 * mm, 0}, {10 * mm, 10 * mm}, {0, 10 * mm}}, {{4 * mm, 4 * mm}, {4 * mm, 6 * mm}, {6 * mm, 6 * mm}, {6 * mm, 4 * mm}},
+const Region two{{{0, 0}, {10 * mm, 0}, {10 * mm, 10 * mm}, {0, 10 * mm}},
+                 {{4 * mm, 4 * mm}, {4 * mm, 6 * mm}, {6 * mm, 6 * mm}, {6 * mm, 4 * mm}},
                  {{20 * mm, 0}, {25 * mm, 0}, {25 * mm, 5 * mm}, {20 * mm, 5 * mm}}};
 }  // namespace
 

@@ -100,7 +100,8 @@ int check_paths(const SupportForest& forest, const LayerPaths& layer, bool long_
             std::reverse(path.points.begin(), path.points.end());
             REQUIRE(outwards.count(path.points) == 1);
             ++turned;
-            for (std::size_t k = 1; k < path.points.size(); ++k) CHECK_FALSE(rooted.first_layer[rooted.at.at(path.points[k])]);
+            for (std::size_t k = 1; k < path.points.size(); ++k)
+                CHECK_FALSE(rooted.first_layer[rooted.at.at(path.points[k])]);
         }
         for (std::size_t k = 1; k < path.points.size(); ++k) {
             REQUIRE(path.points[k] != path.points[k - 1]);
@@ -222,8 +223,9 @@ TEST_CASE("the gap is measured along a bent branch") {
 }
 
 TEST_CASE("a branch from a junction inside a gap starts one width from the nearest printed centre line") {
-    const SupportForest forest = forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 15000}, {5 * mm, 4 * mm}, {6 * mm, 15000}},
-                                           {{0, 1}, {1, 2}, {1, 3}, {3, 4}, {3, 5}});
+    const SupportForest forest =
+        forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 15000}, {5 * mm, 4 * mm}, {6 * mm, 15000}},
+                  {{0, 1}, {1, 2}, {1, 3}, {3, 4}, {3, 5}});
     const auto paths = planned(forest);
     REQUIRE(paths.size() == 3);
     CHECK(paths[1].front() == Point{5 * mm, 40000});
@@ -249,7 +251,8 @@ TEST_CASE("a tree with several roots starts at the first and ends at the others"
 }
 
 TEST_CASE("several branches of one root: the first starts at it, the next one width away") {
-    CHECK(planned(forest_of({{0, 0}, {0, 5 * mm}, {3 * mm, 0}}, {{0, 1}, {0, 2}})) == std::vector<std::vector<Point>>{{{0, 0}, {0, 5 * mm}}, {{40000, 0}, {3 * mm, 0}}});
+    CHECK(planned(forest_of({{0, 0}, {0, 5 * mm}, {3 * mm, 0}}, {{0, 1}, {0, 2}})) ==
+          std::vector<std::vector<Point>>{{{0, 0}, {0, 5 * mm}}, {{40000, 0}, {3 * mm, 0}}});
 }
 
 TEST_CASE("trees follow each other without going back and forth") {
@@ -262,7 +265,8 @@ TEST_CASE("trees follow each other without going back and forth") {
     const LayerPaths layer = support_paths(forest);
     REQUIRE(layer.paths.size() == 3);
     double travel = 0;
-    for (std::size_t i = 1; i < 3; ++i) travel += length(layer.paths[i].points.front() - layer.paths[i - 1].points.back());
+    for (std::size_t i = 1; i < 3; ++i)
+        travel += length(layer.paths[i].points.front() - layer.paths[i - 1].points.back());
     CHECK(travel == 8 * mm);  // 1, 4, 9 or back, up one tree and down the next
 }
 
@@ -271,13 +275,14 @@ TEST_CASE("an isolated root is a dot, taken in its turn") {
     forest[1].root = true;
     const LayerPaths layer = support_paths(forest);
     REQUIRE(layer.paths.size() == 2);
-    CHECK(std::count_if(layer.paths.begin(), layer.paths.end(), [](const ToolPath& p) { return p.points.size() == 1; }) == 1);
+    CHECK(std::count_if(layer.paths.begin(), layer.paths.end(),
+                        [](const ToolPath& p) { return p.points.size() == 1; }) == 1);
 }
 
 namespace {
 
-/// The area of the material of one path that lies in that of another: polygons with 256 corners around every disc, so it is
-/// never smaller than the true area.
+/// The area of the material of one path that lies in that of another: polygons with 256 corners around every disc, so
+/// it is never smaller than the true area.
 double overlap(const ToolPath& a, const ToolPath& b) {
     const auto material = [](const ToolPath& path) {
         Region region;
@@ -288,7 +293,8 @@ double overlap(const ToolPath& a, const ToolPath& b) {
             for (int k = 0; k < 256; ++k) {
                 const double angle = turn + pi / 2 + (k + 0.5) * pi / 128;
                 const Point centre = k < 128 ? s.a : s.b;
-                stadium.push_back(centre + Point{round_to_lattice(r * std::cos(angle)), round_to_lattice(r * std::sin(angle))});
+                stadium.push_back(centre +
+                                  Point{round_to_lattice(r * std::cos(angle)), round_to_lattice(r * std::sin(angle))});
             }
             region.push_back(std::move(stadium));
         }
@@ -303,14 +309,17 @@ TEST_CASE("a branch overlaps its trunk by no more area than stopping one width s
     const double w = static_cast<double>(Settings{}.nozzle);
     for (int degrees = 30; degrees <= 150; degrees += 10) {
         const double angle = degrees * 3.14159265358979 / 180;
-        const Point tip{5 * mm + round_to_lattice(4 * mm * std::cos(angle)), round_to_lattice(4 * mm * std::sin(angle))};
+        const Point tip{5 * mm + round_to_lattice(4 * mm * std::cos(angle)),
+                        round_to_lattice(4 * mm * std::sin(angle))};
         const auto paths = [&](bool first_layer) {
-            return support_paths(forest_of({{0, 0}, {5 * mm, 0}, {11 * mm, 0}, tip}, {{0, 1}, {1, 2}, {1, 3, first_layer}})).paths;
+            return support_paths(
+                       forest_of({{0, 0}, {5 * mm, 0}, {11 * mm, 0}, tip}, {{0, 1}, {1, 2}, {1, 3, first_layer}}))
+                .paths;
         };
         const auto later = paths(false), first = paths(true);
         REQUIRE(later.size() == 2);
-        // Side by side the two leave the junction at this angle: what they share lies between the branch's end, w along it, and
-        // where their sides part, (w / 2) / tan(angle / 2) along it, never wider than w.
+        // Side by side the two leave the junction at this angle: what they share lies between the branch's end, w along
+        // it, and where their sides part, (w / 2) / tan(angle / 2) along it, never wider than w.
         const double steep = std::min(angle, 3.14159265358979 - angle);
         const double parting = w / 2 / std::tan(steep / 2);
         const double allowed = std::max(0.0, parting - w / 2) * w;

@@ -10,7 +10,8 @@ using namespace ribvault;
 namespace {
 
 /// Two triangles that stand as a square of 10 mm facing the front.
-const std::vector<std::array<Corner, 3>> square{{Corner{0, 0, 0}, Corner{10, 0, 0}, Corner{10, 0, 10}}, {Corner{0, 0, 0}, Corner{10, 0, 10}, Corner{0, 0, 10}}};
+const std::vector<std::array<Corner, 3>> square{{Corner{0, 0, 0}, Corner{10, 0, 0}, Corner{10, 0, 10}},
+                                                {Corner{0, 0, 0}, Corner{10, 0, 10}, Corner{0, 0, 10}}};
 
 std::string from_base64(const std::string& text) {
     static const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -67,5 +68,6 @@ TEST_CASE("sizes as people and PrusaSlicer write them") {
     CHECK(thumbnail_sizes("16x16, 220x124/PNG") == Sizes{{16, 16}, {220, 124}});
     CHECK(thumbnail_sizes("none").empty());
     CHECK(thumbnail_sizes("").empty());
-    for (const char* bad : {"220", "0x4", "axb", "16x16,", "2000x16", "16x16x16"}) CHECK_THROWS_AS(thumbnail_sizes(bad), Error);
+    for (const char* bad : {"220", "0x4", "axb", "16x16,", "2000x16", "16x16x16"})
+        CHECK_THROWS_AS(thumbnail_sizes(bad), Error);
 }

@@ -14,12 +14,20 @@ constexpr Unit mm = units_per_mm;
 
 LayerPaths perimeters_of(const Region& outline) {
     LayerPaths layer;
-    for (Contour& c : offset(outline, -20000, ClipperLib::jtMiter)) layer.paths.push_back({TrackKind::outer_perimeter, 40000, true, std::move(c)});
+    for (Contour& c : offset(outline, -20000, ClipperLib::jtMiter))
+        layer.paths.push_back({TrackKind::outer_perimeter, 40000, true, std::move(c)});
     return layer;
 }
 
 /// A U of 30 mm with a slit 10 mm wide.
-const Region u{{{0, 0}, {30 * mm, 0}, {30 * mm, 30 * mm}, {20 * mm, 30 * mm}, {20 * mm, 10 * mm}, {10 * mm, 10 * mm}, {10 * mm, 30 * mm}, {0, 30 * mm}}};
+const Region u{{{0, 0},
+                {30 * mm, 0},
+                {30 * mm, 30 * mm},
+                {20 * mm, 30 * mm},
+                {20 * mm, 10 * mm},
+                {10 * mm, 10 * mm},
+                {10 * mm, 30 * mm},
+                {0, 30 * mm}}};
 
 }  // namespace
 
@@ -90,7 +98,8 @@ TEST_CASE("random travels in random slices: inside, no shorter than straight, or
 
 TEST_CASE("open air is what lies over the cavity") {
     const Region square{{{0, 0}, {20 * mm, 0}, {20 * mm, 20 * mm}, {0, 20 * mm}}};
-    const Region cavity{{{5 * mm, 5 * mm}, {15 * mm, 5 * mm}, {15 * mm, 15 * mm}, {5 * mm, 15 * mm}}, {{8 * mm, 8 * mm}, {8 * mm, 12 * mm}, {12 * mm, 12 * mm}, {12 * mm, 8 * mm}}};
+    const Region cavity{{{5 * mm, 5 * mm}, {15 * mm, 5 * mm}, {15 * mm, 15 * mm}, {5 * mm, 15 * mm}},
+                        {{8 * mm, 8 * mm}, {8 * mm, 12 * mm}, {12 * mm, 12 * mm}, {12 * mm, 8 * mm}}};
     const TravelMap map(square, cavity, perimeters_of(square));
     const auto air = [&](Point a, Point b) { return map.travel(a, b, 0).open_air / mm; };
     CHECK(air({mm, 2 * mm}, {19 * mm, 2 * mm}) == 0);

@@ -18,7 +18,8 @@ const Region cavity{{{0, 0}, {30 * mm, 0}, {30 * mm, 20 * mm}, {0, 20 * mm}}};
 SupportForest tree(bool wide) {
     SupportForest forest;
     const auto root = add_vertex({.at = {0, 10 * mm}, .root = true, .wide = wide}, forest);
-    const auto joint = add_vertex({.at = {5 * mm, 10 * mm}, .wide = wide}, forest), tip = add_vertex({.at = {10 * mm, 10 * mm}, .wide = wide}, forest);
+    const auto joint = add_vertex({.at = {5 * mm, 10 * mm}, .wide = wide}, forest),
+               tip = add_vertex({.at = {10 * mm, 10 * mm}, .wide = wide}, forest);
     const auto branch = add_vertex({.at = {5 * mm, 15 * mm}, .wide = wide}, forest);
     add_edge(root, joint, forest), add_edge(joint, tip, forest), add_edge(joint, branch, forest);
     return forest;
@@ -44,7 +45,8 @@ TEST_CASE("two lines are one path around the tree, half a width from it, from sh
     CHECK(paths[0].points.front().x == 0);
     CHECK(paths[0].points.back().x == 0);
     const NearestSegment walls({{{0, 10 * mm}, {10 * mm, 10 * mm}}, {{5 * mm, 10 * mm}, {5 * mm, 15 * mm}}});
-    for (const Point p : paths[0].points) CHECK(std::sqrt(walls.nearest(p).distance.value()) == Approx(20000).margin(101));
+    for (const Point p : paths[0].points)
+        CHECK(std::sqrt(walls.nearest(p).distance.value()) == Approx(20000).margin(101));
     // Both sides of 15 mm of wall, two half circles less the corners at the joint.
     CHECK(length(paths[0]) / mm == Approx(30).margin(1.5));
 }
@@ -62,7 +64,8 @@ TEST_CASE("side by side the tracks are as wide as pictures draw the wall") {
             double farthest = 0;
             for (const ToolPath& path : printed(forest, lines))
                 for (const Point p : path.points)
-                    farthest = std::max(farthest, std::sqrt(walls.nearest(p).distance.value()) + 0.5 * static_cast<double>(path.width));
+                    farthest = std::max(
+                        farthest, std::sqrt(walls.nearest(p).distance.value()) + 0.5 * static_cast<double>(path.width));
             Settings settings;
             settings.wall_lines = lines;
             CHECK(farthest == Approx(0.5 * static_cast<double>(wall_width(forest[0], settings))).margin(101));

@@ -168,8 +168,10 @@ TEST_CASE("what is written reads back as the same paths on the lattice, and E is
             const ToolPath& path = layer.paths[i];
             CHECK(read.tracks[i].points == points_travelled(path));
             CHECK(read.tracks[i].width == path.width);
-            // A dot of width w is a disc; as much material as a track of length π w / 4. So is a stub shorter than w / 4.
-            const double mm_of_track = 4 * length(path) < static_cast<double>(path.width) ? std::numbers::pi * 0.1 : length(path) / mm;
+            // A dot of width w is a disc; as much material as a track of length π w / 4. So is a stub shorter than w
+            // / 4.
+            const double mm_of_track =
+                4 * length(path) < static_cast<double>(path.width) ? std::numbers::pi * 0.1 : length(path) / mm;
             CHECK(std::abs(read.tracks[i].filament - mm_of_track * filament_per_mm) < 1.1e-5);
             total += read.tracks[i].filament;
             expected += mm_of_track * filament_per_mm;
@@ -185,12 +187,17 @@ TEST_CASE("what is written reads back as the same paths on the lattice, and E is
 }
 
 TEST_CASE("a stub on its own gets a dot's filament, one that is joined to a track its length's") {
-    const auto filament_of_second = [](std::vector<ToolPath> paths) { return parse(whole_layer(layer_of(std::move(paths)), {}, {}).text).tracks.at(1).filament; };
-    const ToolPath first = path_of(TrackKind::cover, {{0, 0}, {5 * mm, 0}}), next = path_of(TrackKind::cover, {{6 * mm, 5000}, {9 * mm, 0}});
-    const ToolPath alone = path_of(TrackKind::support, {{6 * mm, 0}, {6 * mm, 5000}}), after = path_of(TrackKind::support, {{5 * mm, 0}, {5 * mm, 5000}});
+    const auto filament_of_second = [](std::vector<ToolPath> paths) {
+        return parse(whole_layer(layer_of(std::move(paths)), {}, {}).text).tracks.at(1).filament;
+    };
+    const ToolPath first = path_of(TrackKind::cover, {{0, 0}, {5 * mm, 0}}),
+                   next = path_of(TrackKind::cover, {{6 * mm, 5000}, {9 * mm, 0}});
+    const ToolPath alone = path_of(TrackKind::support, {{6 * mm, 0}, {6 * mm, 5000}}),
+                   after = path_of(TrackKind::support, {{5 * mm, 0}, {5 * mm, 5000}});
     ToolPath on_track = alone;
     on_track.on_track = true;
-    const double filament_per_mm = 0.4 * 0.2 / (std::numbers::pi / 4 * 1.75 * 1.75), dot = std::numbers::pi * 0.1 * filament_per_mm, stub = 0.05 * filament_per_mm;
+    const double filament_per_mm = 0.4 * 0.2 / (std::numbers::pi / 4 * 1.75 * 1.75),
+                 dot = std::numbers::pi * 0.1 * filament_per_mm, stub = 0.05 * filament_per_mm;
     CHECK(filament_of_second({first, alone, first}) == Approx(dot).margin(1e-5));
     CHECK(filament_of_second({first, alone, next}) == Approx(stub).margin(1e-5));
     CHECK(filament_of_second({first, after, first}) == Approx(stub).margin(1e-5));
@@ -245,7 +252,8 @@ TEST_CASE("a layer begins and ends retracted; only long travels retract between"
         return layer_of(
             {path_of(TrackKind::cover, {{0, 0}, {mm, 0}}), path_of(TrackKind::cover, {{mm + apart, 0}, {19 * mm, 0}})});
     };
-    const Whole near = whole_layer(two(500000), {}, eager_printer()), far = whole_layer(two(500001), {}, eager_printer());
+    const Whole near = whole_layer(two(500000), {}, eager_printer()),
+                far = whole_layer(two(500001), {}, eager_printer());
     CHECK(parse(near.text).pushes == std::vector<double>{3, -3});
     CHECK(parse(far.text).pushes == std::vector<double>{3, -3, 3, -3});
     CHECK(near.statistics.retractions == 1);
@@ -360,7 +368,8 @@ TEST_CASE("a travel retracts for open air under it and for leaving the island, n
     };
     const Region outline{ring(0, 40 * mm, false)}, cavity{ring(10 * mm, 30 * mm, false)};
     const auto retractions = [&](Point from, Point to) {
-        const LayerPaths layer = layer_of({path_of(TrackKind::support, {from - Point{0, mm}, from}), path_of(TrackKind::support, {to, to + Point{0, mm}})});
+        const LayerPaths layer = layer_of({path_of(TrackKind::support, {from - Point{0, mm}, from}),
+                                           path_of(TrackKind::support, {to, to + Point{0, mm}})});
         return gcode_layer(layer, TravelMap(outline, cavity, layer), {}, eager_printer()).statistics.retractions;
     };
     CHECK(retractions({2 * mm, 2 * mm}, {2 * mm, 35 * mm}) == 0);           // over the shell, however far
@@ -371,8 +380,9 @@ TEST_CASE("a travel retracts for open air under it and for leaving the island, n
     PrinterSettings eager;
     eager.retract_over = 0;
     const auto touching = [&](Unit apart) {
-        const LayerPaths layer = layer_of({path_of(TrackKind::support, {{20 * mm, 15 * mm}, {20 * mm, 20 * mm}}),
-                                           path_of(TrackKind::support, {{20 * mm + apart, 20 * mm}, {25 * mm, 20 * mm}})});
+        const LayerPaths layer =
+            layer_of({path_of(TrackKind::support, {{20 * mm, 15 * mm}, {20 * mm, 20 * mm}}),
+                      path_of(TrackKind::support, {{20 * mm + apart, 20 * mm}, {25 * mm, 20 * mm}})});
         return gcode_layer(layer, TravelMap(outline, cavity, layer), {}, eager).statistics.retractions;
     };
     CHECK(touching(40000) == 0);
@@ -380,13 +390,17 @@ TEST_CASE("a travel retracts for open air under it and for leaving the island, n
 }
 
 TEST_CASE("layers are joined without a retraction where the way is short or inside, retracted otherwise") {
-    const Region outline{{{0, 0}, {40 * mm, 0}, {40 * mm, 40 * mm}, {0, 40 * mm}}}, cavity{{{mm, mm}, {39 * mm, mm}, {39 * mm, 39 * mm}, {mm, 39 * mm}}};
-    const auto layer_at = [&](int number, Point from, Point to) { return layer_of({path_of(TrackKind::support, {from, to})}, number); };
+    const Region outline{{{0, 0}, {40 * mm, 0}, {40 * mm, 40 * mm}, {0, 40 * mm}}},
+        cavity{{{mm, mm}, {39 * mm, mm}, {39 * mm, 39 * mm}, {mm, 39 * mm}}};
+    const auto layer_at = [&](int number, Point from, Point to) {
+        return layer_of({path_of(TrackKind::support, {from, to})}, number);
+    };
     const LayerPaths below = layer_at(4, {5 * mm, 5 * mm}, {20 * mm, 20 * mm});
     const auto joint = [&](Point start) {
         const LayerPaths above = layer_at(5, start, {5 * mm, 5 * mm});
         const TravelMap map(outline, cavity, above);
-        const LayerText lower = gcode_layer(below, TravelMap(outline, cavity, below), {}, eager_printer()), upper = gcode_layer(above, map, {}, eager_printer());
+        const LayerText lower = gcode_layer(below, TravelMap(outline, cavity, below), {}, eager_printer()),
+                        upper = gcode_layer(above, map, {}, eager_printer());
         PrintStatistics sum;
         const std::string text = gcode_joint(&lower, upper, map, {}, eager_printer(), sum);
         CHECK(sum.travels == 1);
@@ -401,8 +415,12 @@ TEST_CASE("layers are joined without a retraction where the way is short or insi
 
 TEST_CASE("skirt and brim are printed before the first layer's tracks and nowhere inside them") {
     const Region outline{{{0, 0}, {10 * mm, 0}, {10 * mm, 10 * mm}, {0, 10 * mm}}};
-    const LayerPaths layer = layer_of({path_of(TrackKind::outer_perimeter, {{20000, 20000}, {980000, 20000}, {980000, 980000}, {20000, 980000}}, true)}, 0);
-    const std::vector<ToolPath> beside{{TrackKind::skirt, 40000, true, {{-mm, -mm}, {11 * mm, -mm}, {11 * mm, 11 * mm}, {-mm, 11 * mm}}}};
+    const LayerPaths layer =
+        layer_of({path_of(TrackKind::outer_perimeter,
+                          {{20000, 20000}, {980000, 20000}, {980000, 980000}, {20000, 980000}}, true)},
+                 0);
+    const std::vector<ToolPath> beside{
+        {TrackKind::skirt, 40000, true, {{-mm, -mm}, {11 * mm, -mm}, {11 * mm, 11 * mm}, {-mm, 11 * mm}}}};
     const LayerText text = gcode_layer(layer, TravelMap(outline, {}, layer), {}, {}, beside);
     CHECK(text.body.find(";TYPE:Skirt/Brim") == 0);
     CHECK(text.body.find(";TYPE:External perimeter") != std::string::npos);
@@ -413,7 +431,8 @@ TEST_CASE("skirt and brim are printed before the first layer's tracks and nowher
 TEST_CASE("external supports are printed by their own tool, retracted and primed at every change") {
     PrinterSettings printer;
     printer.support_extruder = 2;
-    const LayerPaths layer = layer_of({path_of(TrackKind::outer_perimeter, {{0, 0}, {10 * mm, 0}}), path_of(TrackKind::external_support, {{10 * mm, 0}, {20 * mm, 0}}),
+    const LayerPaths layer = layer_of({path_of(TrackKind::outer_perimeter, {{0, 0}, {10 * mm, 0}}),
+                                       path_of(TrackKind::external_support, {{10 * mm, 0}, {20 * mm, 0}}),
                                        path_of(TrackKind::external_support, {{20 * mm, 0}, {20 * mm, 5 * mm}})});
     const TravelMap map({}, {}, layer);
     const auto text_of = [&](int number) {
@@ -435,7 +454,8 @@ TEST_CASE("external supports are printed by their own tool, retracted and primed
     const std::string joint = gcode_joint(&lower, upper, map, {}, printer, statistics);
     CHECK(joint.find("\nT0\n") != std::string::npos);
     CHECK(statistics.retractions == 1);
-    CHECK(gcode_joint(nullptr, lower, map, {}, printer, statistics).find("\nT") == std::string::npos);  // the header leaves T0
+    CHECK(gcode_joint(nullptr, lower, map, {}, printer, statistics).find("\nT") ==
+          std::string::npos);  // the header leaves T0
     LayerText empty;
     CHECK(gcode_joint(&empty, upper, map, {}, printer, statistics).find("\nT0\n") != std::string::npos);
     printer.support_extruder = 0;

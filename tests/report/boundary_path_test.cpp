@@ -9,7 +9,9 @@ using namespace ribvault;
 
 namespace {
 
-PrintedTrack track(Rational ax, Rational ay, Rational bx, Rational by) { return {{ax, ay}, {bx, by}, Rational(2, 5), 0, 1, false}; }
+PrintedTrack track(Rational ax, Rational ay, Rational bx, Rational by) {
+    return {{ax, ay}, {bx, by}, Rational(2, 5), 0, 1, false};
+}
 
 RegionBoundary boundary_of(std::vector<PrintedTrack> above, std::vector<PrintedTrack> below) {
     const PrintedVerdict verdict = verify_printed({0, 0, std::move(above)}, {0, 0, std::move(below)}, Rational(1, 5));
@@ -22,7 +24,8 @@ RegionBoundary boundary_of(std::vector<PrintedTrack> above, std::vector<PrintedT
 TEST_CASE("a dot in the air is a circle of three arcs") {
     const RegionBoundary boundary = boundary_of({track(1, 2, 1, 2)}, {});
     CHECK(boundary_data(boundary, YAxis::up) == "M1.2 2A.2 .2 0 0 1 .9 2.173A.2 .2 0 0 1 .9 1.827A.2 .2 0 0 1 1.2 2Z");
-    CHECK(boundary_data(boundary, YAxis::down) == "M1.2 -2A.2 .2 0 0 0 .9 -2.173A.2 .2 0 0 0 .9 -1.827A.2 .2 0 0 0 1.2 -2Z");
+    CHECK(boundary_data(boundary, YAxis::down) ==
+          "M1.2 -2A.2 .2 0 0 0 .9 -2.173A.2 .2 0 0 0 .9 -1.827A.2 .2 0 0 0 1.2 -2Z");
 }
 
 TEST_CASE("a track in the air is two lines and two half circles") {
@@ -41,7 +44,9 @@ TEST_CASE("what hangs over an end is bounded by the dilated end, run through the
 }
 
 TEST_CASE("a region smaller than the picture's numbers leaves a path all the same") {
-    const std::string data = boundary_data(boundary_of({track(0, 0, Rational(1, 1000000), 0)}, {track(Rational(-2, 10), 0, Rational(-2, 10), 0)}), YAxis::up);
+    const std::string data = boundary_data(
+        boundary_of({track(0, 0, Rational(1, 1000000), 0)}, {track(Rational(-2, 10), 0, Rational(-2, 10), 0)}),
+        YAxis::up);
     CHECK(data.front() == 'M');
     CHECK(data.back() == 'Z');
 }

@@ -29,8 +29,8 @@ inline bool has_type(const Json& value, const std::string& type) {
     return type == "null" && value.is_null();
 }
 
-/// Every way in which `value` does not follow `schema`, a part of `root`; the keywords are those that the schema files use.
-/// Members are unknown unless additionalProperties allows them.
+/// Every way in which `value` does not follow `schema`, a part of `root`; the keywords are those that the schema files
+/// use. Members are unknown unless additionalProperties allows them.
 inline void violations(const Json& schema, const Json& value, const Json& root, const std::string& at,
                 std::vector<std::string>& found) {
     if (schema.contains("$ref")) {
@@ -50,7 +50,8 @@ inline void violations(const Json& schema, const Json& value, const Json& root, 
         return;
     }
     if (schema.contains("const") && value != schema["const"]) found.push_back(at + ": not the constant");
-    if (schema.contains("enum") && std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
+    if (schema.contains("enum") &&
+        std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
         found.push_back(at + ": " + value.dump() + " is none of the values");
     if (schema.contains("type")) {
         const Json& type = schema["type"];
@@ -76,7 +77,8 @@ inline void violations(const Json& schema, const Json& value, const Json& root, 
             violations(schema["properties"][name], member, root, at + "/" + name, found);
         else if (schema.value("additionalProperties", Json(true)).is_object())
             violations(schema["additionalProperties"], member, root, at + "/" + name, found);
-        else if (schema.value("additionalProperties", Json(true)) != Json(true) || !schema.contains("additionalProperties"))
+        else if (schema.value("additionalProperties", Json(true)) != Json(true) ||
+                 !schema.contains("additionalProperties"))
             found.push_back(at + ": unknown member " + name);
     }
 }

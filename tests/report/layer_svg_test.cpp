@@ -237,7 +237,8 @@ TEST_CASE("walls of several tracks are drawn as wide as these together, as far a
         const Picture picture(svg);
         std::map<std::string, pugi::xml_node> by_width;  // without the legend's, which is the last
         for (const pugi::xml_node path : picture.document.child("svg").children("path"))
-            if (path.attribute("stroke").value() == std::string(tracks)) by_width.emplace(path.attribute("stroke-width").value(), path);
+            if (path.attribute("stroke").value() == std::string(tracks))
+                by_width.emplace(path.attribute("stroke-width").value(), path);
         REQUIRE(by_width.count(".4") == 1);
         REQUIRE(by_width.count(lines == 2 ? ".8" : "1.2") == 1);
         const pugi::xml_node narrow = by_width[".4"], wide = by_width[lines == 2 ? ".8" : "1.2"];

@@ -21,7 +21,10 @@ LayerShapes sample_shapes() {
     LayerShapes s;
     s.slice = {{{0, 0}, {20000 * um, 0}, {20000 * um, 10000 * um}, {-1 * um, 10000 * um}}};
     s.cavity = {{{400 * um, 400 * um}, {19600 * um, 400 * um}, {19600 * um, 9600 * um}}};
-    s.vertices = {{{400 * um, 401 * um}, true}, {{1500 * um, 2000 * um}, false}, {{-123456 * um, 7 * um}, false}, {{3 * um, 3 * um}, true}};
+    s.vertices = {{{400 * um, 401 * um}, true},
+                  {{1500 * um, 2000 * um}, false},
+                  {{-123456 * um, 7 * um}, false},
+                  {{3 * um, 3 * um}, true}};
     s.edges = {{0, 1}, {2, 0}};
     for (std::size_t v = 0; v < 3; ++v) s.vertices[v].wide = true;
     s.unsupported = {{{10 * um, 10 * um}, {20 * um, 10 * um}, {20 * um, 20 * um}}, {}};
@@ -84,8 +87,10 @@ std::string with(const std::string& line, const std::string& pointer, const Json
 }  // namespace
 
 TEST_CASE("every line of a layers file follows its schema") {
-    for (const std::string& line : sample_lines()) CHECK(test::violations(Json::parse(line), "layers-file.schema.json") == std::vector<std::string>{});
-    CHECK_FALSE(test::violations(Json::parse(without(sample_lines()[0], "/totals")), "layers-file.schema.json").empty());
+    for (const std::string& line : sample_lines())
+        CHECK(test::violations(Json::parse(line), "layers-file.schema.json") == std::vector<std::string>{});
+    CHECK_FALSE(
+        test::violations(Json::parse(without(sample_lines()[0], "/totals")), "layers-file.schema.json").empty());
     CHECK_FALSE(test::violations(Json::parse(without(sample_lines()[1], "/roots")), "layers-file.schema.json").empty());
 }
 
@@ -157,7 +162,8 @@ TEST_CASE("shapes are rounded to the nearest micrometre, on both sides of zero")
 }
 
 TEST_CASE("what was unsupported counts once where its contours overlap") {
-    const Region overlapping{{{0, 0}, {20000, 0}, {20000, 20000}, {0, 20000}}, {{10000, 0}, {30000, 0}, {30000, 20000}, {10000, 20000}}};
+    const Region overlapping{{{0, 0}, {20000, 0}, {20000, 20000}, {0, 20000}},
+                             {{10000, 0}, {30000, 0}, {30000, 20000}, {10000, 20000}}};
     const LayerShapes shapes = shapes_of({}, {}, {}, overlapping, {});
     CHECK(shapes.unsupported.size() == 1);
     CHECK(signed_area(shapes.unsupported) == 30000.0 * 20000.0);
@@ -175,9 +181,12 @@ TEST_CASE("a layers file that is not whole is refused by name") {
     CHECK_THAT(complaint({good[0], good[1], good[2]}), Contains("is cut off: it ends after 2 of 3 layers"));
     CHECK_THAT(complaint({good[0], good[1], good[2].substr(0, 300)}), Contains("line 3 is no JSON"));
     CHECK_THAT(complaint({good[0], good[1], good[3], good[2]}), Contains("line 3 has layer 2 where layer 1 should be"));
-    CHECK_THAT(complaint({good[0], good[1], good[2], good[3], good[3]}), Contains("line 5 is one more than the 3 layers"));
-    CHECK_THAT(changed(0, with(good[0], "/schema", "ribvault-layers/2")), Contains("is of schema ribvault-layers/2; expected a layers file, schema ribvault-layers/1"));
-    CHECK_THAT(changed(0, with(good[0], "/schema", "ribvault-run/1")), Contains("ribvault-run/1") && Contains("--layers"));
+    CHECK_THAT(complaint({good[0], good[1], good[2], good[3], good[3]}),
+               Contains("line 5 is one more than the 3 layers"));
+    CHECK_THAT(changed(0, with(good[0], "/schema", "ribvault-layers/2")),
+               Contains("is of schema ribvault-layers/2; expected a layers file, schema ribvault-layers/1"));
+    CHECK_THAT(changed(0, with(good[0], "/schema", "ribvault-run/1")),
+               Contains("ribvault-run/1") && Contains("--layers"));
     CHECK_THAT(changed(0, without(good[0], "/schema")), Contains("has no \"schema\""));
     CHECK_THAT(changed(0, "[]"), Contains("line 1 is no JSON object"));
     CHECK_THAT(changed(0, with(good[0], "/totals/layers", 0)), Contains("no layers"));
@@ -186,17 +195,21 @@ TEST_CASE("a layers file that is not whole is refused by name") {
         CHECK_THAT(changed(0, without(good[0], field)), Contains("line 1 has no \""));
         CHECK_THAT(changed(0, with(good[0], field, Json::object())), Contains("line 1 has no valid \""));
     }
-    for (const char* field : {"/z_mm", "/verdict/supported", "/slice", "/cavity", "/vertices", "/roots", "/edges", "/unsupported", "/patch_tracks"}) {
+    for (const char* field : {"/z_mm", "/verdict/supported", "/slice", "/cavity", "/vertices", "/roots", "/edges",
+                              "/unsupported", "/patch_tracks"}) {
         CHECK_THAT(changed(2, without(good[2], field)), Contains("line 3 has no \""));
         CHECK_THAT(changed(2, with(good[2], field, "rubbish")), Contains("line 3 has no valid \""));
     }
-    CHECK_THAT(changed(2, with(good[2], "/verdict/internal", Json::object())), Contains("has no \"verdict.internal.area_mm2.0\""));
-    CHECK_THAT(changed(3, without(good[3], "/verdict/external/witness_mm")), Contains("has no \"verdict.external.witness_mm.0\""));
+    CHECK_THAT(changed(2, with(good[2], "/verdict/internal", Json::object())),
+               Contains("has no \"verdict.internal.area_mm2.0\""));
+    CHECK_THAT(changed(3, without(good[3], "/verdict/external/witness_mm")),
+               Contains("has no \"verdict.external.witness_mm.0\""));
     CHECK_THAT(changed(2, with(good[2], "/print/place_mm", "here")), Contains("\"print.place_mm.0\""));
     CHECK_THAT(changed(2, with(good[2], "/edges/0/1", 4)), Contains("there is no vertex 4"));
     CHECK_THAT(changed(2, with(good[2], "/roots/0", -1)), Contains("there is no vertex -1"));
     CHECK_THAT(changed(2, with(good[2], "/wide/0", 4)), Contains("\"wide\": there is no vertex 4"));
-    CHECK_THAT(changed(2, with(good[2], "/wide", "rubbish")), Contains("line 3 has no valid \"wide\": expected a list"));
+    CHECK_THAT(changed(2, with(good[2], "/wide", "rubbish")),
+               Contains("line 3 has no valid \"wide\": expected a list"));
     CHECK_THAT(changed(0, with(good[0], "/settings/wall_lines", "two")),
                Contains("has no valid \"settings.wall_lines\": expected a whole number"));
     CHECK_THAT(changed(2, with(good[2], "/slice/0/1/0", 1e300)), Contains("\"slice\""));

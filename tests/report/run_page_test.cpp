@@ -38,7 +38,8 @@ std::string from_base64(const std::string& text) {
 std::string inflated(const std::string& bytes, std::size_t most) {
     std::string out(most, '\0');
     uLongf size = most;
-    REQUIRE(uncompress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()) == Z_OK);
+    REQUIRE(uncompress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                       bytes.size()) == Z_OK);
     out.resize(size);
     return out;
 }

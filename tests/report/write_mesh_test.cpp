@@ -153,7 +153,8 @@ TEST_CASE("a wall of several tracks is as wide as these together") {
     const ScratchFolder folder;
     SupportForest forest = star();
     for (auto [v, end] = vertices(forest); v != end; ++v) forest[*v].wide = true;
-    const auto far_root = add_vertex({.at = {0, -20 * mm}, .root = true}, forest), far_tip = add_vertex({.at = {0, -24 * mm}}, forest);
+    const auto far_root = add_vertex({.at = {0, -20 * mm}, .root = true}, forest),
+               far_tip = add_vertex({.at = {0, -24 * mm}}, forest);
     add_edge(far_root, far_tip, forest);
     for (const int lines : {1, 2, 3}) {
         Settings settings;

@@ -1,5 +1,5 @@
-// Slice vertices on mesh edges that are nearly parallel to the plane: the machine-number enclosures that come with lazy exact
-// numbers are then wide, and nothing may rely on their middle.
+// Slice vertices on mesh edges that are nearly parallel to the plane: the machine-number enclosures that come with lazy
+// exact numbers are then wide, and nothing may rely on their middle.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -12,12 +12,14 @@ using namespace ribvault;
 
 namespace {
 
-/// A 20 mm box whose lid falls from z = 0.7 + up (at the corner y = 20: 1.7 up) at x = 0 to z = 0.7 - down at x = 20, mm.
+/// A 20 mm box whose lid falls from z = 0.7 + up (at the corner y = 20: 1.7 up) at x = 0 to z = 0.7 - down at x = 20,
+/// mm.
 Mesh nearly_level_lid(double down, double up) {
     const double lo = 0.7 - down, hi = 0.7 + up;
     Mesh mesh;
     mesh.vertices.resize(3, 8);
-    const double corners[8][3] = {{0, 0, 0}, {20, 0, 0}, {20, 20, 0}, {0, 20, 0}, {0, 0, hi}, {20, 0, lo}, {20, 20, lo}, {0, 20, 0.7 + 1.7 * up}};
+    const double corners[8][3] = {{0, 0, 0},  {20, 0, 0},  {20, 20, 0},  {0, 20, 0},
+                                  {0, 0, hi}, {20, 0, lo}, {20, 20, lo}, {0, 20, 0.7 + 1.7 * up}};
     for (int v = 0; v < 8; ++v)
         for (int k = 0; k < 3; ++k) mesh.vertices(k, v) = corners[v][k];
     const int triangles[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
@@ -30,7 +32,8 @@ Mesh nearly_level_lid(double down, double up) {
 
 }  // namespace
 
-TEST_CASE("vertices of a slice are rounded to the nearest lattice point however flat the mesh edges through the plane are") {
+TEST_CASE(
+    "vertices of a slice are rounded to the nearest lattice point however flat the mesh edges through the plane are") {
     for (const double size : {1e-9, 1e-10, 3e-11, 1e-11, 4e-12, 2e-12, 1e-12, 1e-13, 1e-15})
         for (const double share : {1.0, 0.37, 2.9}) {
             const Mesh mesh = nearly_level_lid(size, size * share);
@@ -49,7 +52,8 @@ TEST_CASE("vertices of a slice are rounded to the nearest lattice point however 
                 double least = HUGE_VAL;
                 for (auto v = outer.vertices_begin(); v != outer.vertices_end(); ++v) {
                     const Rational x = CGAL::exact(v->x()), y = CGAL::exact(v->y());
-                    const Rational dx = x * units_per_mm - Rational(static_cast<long>(p.x)), dy = y * units_per_mm - Rational(static_cast<long>(p.y));
+                    const Rational dx = x * units_per_mm - Rational(static_cast<long>(p.x)),
+                                   dy = y * units_per_mm - Rational(static_cast<long>(p.y));
                     least = std::min(least, std::max(std::abs(dx.get_d()), std::abs(dy.get_d())));
                 }
                 worst = std::max(worst, least);

@@ -23,7 +23,8 @@ double area_mm2(const Region& region) { return area_to_mm2(signed_area(region));
 }  // namespace
 
 TEST_CASE("outside and slice fill the frame, and overlap by 30 nm") {
-    const Slice slice = slice_of(0, {rectangle(-500000, -500000, 500000, 500000), reversed(rectangle(-200000, -200000, 200000, 200000))});
+    const Slice slice = slice_of(
+        0, {rectangle(-500000, -500000, 500000, 500000), reversed(rectangle(-200000, -200000, 200000, 200000))});
     const Cavity outside = make_outside(slice, frame, {});
     const PointLocation location(edges_of(outside.region), units_per_mm);
     CHECK(outside.outside);
@@ -66,7 +67,8 @@ TEST_CASE("what hangs over the outside is the slice above farther than rho from 
     const Settings settings;
     const Slice column = slice_of(0, {rectangle(-500000, -500000, 500000, 500000)});
     const auto over = [&](Region above) {
-        return overhang_outside(make_outside(column, frame, settings), make_outside(slice_of(1, std::move(above)), frame, settings), none(), settings);
+        return overhang_outside(make_outside(column, frame, settings),
+                                make_outside(slice_of(1, std::move(above)), frame, settings), none(), settings);
     };
     CHECK(over(column.rounded).empty());
     CHECK(over({rectangle(-519800, -500000, 519800, 500000)}).empty());

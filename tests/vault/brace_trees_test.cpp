@@ -18,7 +18,9 @@ constexpr Unit mm = units_per_mm;
 const Region room{rectangle(0, 0, 40 * mm, 30 * mm)};
 
 /// A wall of 20 mm along the middle of the room that turns towards the far side for its last 10 mm.
-SupportForest bent() { return forest_of({{{0, 15 * mm}, {20 * mm, 15 * mm}, {20 * mm, 25 * mm}}, {0}, {{0, 1}, {1, 2}}}); }
+SupportForest bent() {
+    return forest_of({{{0, 15 * mm}, {20 * mm, 15 * mm}, {20 * mm, 25 * mm}}, {0}, {{0, 1}, {1, 2}}});
+}
 
 int roots_of(const SupportForest& forest) {
     int roots = 0;
@@ -42,13 +44,15 @@ TEST_CASE("a long tree gets its second root where the shell is nearest to its ti
 TEST_CASE("a brace stands away from the first root and goes through no wall") {
     const CavityBoundary boundary = prepare_boundary(room);
     // The tip's nearest shell is beside its own root.
-    SupportForest hook = forest_of({{{0, 15 * mm}, {20 * mm, 15 * mm}, {20 * mm, 18 * mm}, {1 * mm, 18 * mm}}, {0}, {{0, 1}, {1, 2}, {2, 3}}});
+    SupportForest hook = forest_of(
+        {{{0, 15 * mm}, {20 * mm, 15 * mm}, {20 * mm, 18 * mm}, {1 * mm, 18 * mm}}, {0}, {{0, 1}, {1, 2}, {2, 3}}});
     REQUIRE(brace_trees(hook, boundary, 20 * mm) == 1);
     for (auto [v, end] = vertices(hook); v != end; ++v)
         if (hook[*v].root && *v != 0) CHECK(length(hook[*v].at - Point{0, 15 * mm}) >= 10.0 * mm);
     // A wall between tip and shell, with a gap at its far end.
     SupportForest barred = bent();
-    const auto a = add_vertex({.at = {40 * mm, 27 * mm}, .root = true}, barred), b = add_vertex({.at = {15 * mm, 27 * mm}}, barred);
+    const auto a = add_vertex({.at = {40 * mm, 27 * mm}, .root = true}, barred),
+               b = add_vertex({.at = {15 * mm, 27 * mm}}, barred);
     add_edge(a, b, barred);
     REQUIRE(brace_trees(barred, boundary, 29 * mm) == 1);
     CHECK_FALSE(has_wall(barred, {20 * mm, 25 * mm}, {20 * mm, 30 * mm}));
@@ -72,7 +76,8 @@ TEST_CASE("braces of random supports: long trees have two roots, nothing that wa
         for (auto [v, end] = vertices(forest); v != end; ++v) {
             if (!forest[*v].root) continue;
             const TreeWalk tree = walk_from(*v, forest);
-            const auto roots = std::count_if(tree.order.begin(), tree.order.end(), [&](std::size_t w) { return forest[w].root; });
+            const auto roots =
+                std::count_if(tree.order.begin(), tree.order.end(), [&](std::size_t w) { return forest[w].root; });
             long_trees += roots == 1 && tree.distance[tree.farthest()] > static_cast<double>(mm);
         }
     }

@@ -1,4 +1,5 @@
-// Supports that stand free: one root a tree, in its middle; what erosion leaves; walls or pillars by the track they need.
+// Supports that stand free: one root a tree, in its middle; what erosion leaves; walls or pillars by the track they
+// need.
 #include "ribvault/vault/free_trees.hpp"
 
 #include <catch2/catch.hpp>
@@ -36,7 +37,9 @@ std::vector<std::size_t> roots(const SupportForest& forest) {
     return found;
 }
 
-Cavity beside(int layer, Region slice, const Settings& settings) { return make_outside({layer, nullptr, std::move(slice)}, frame, settings); }
+Cavity beside(int layer, Region slice, const Settings& settings) {
+    return make_outside({layer, nullptr, std::move(slice)}, frame, settings);
+}
 
 /// The supports of `layer` under a square of `half` units about p, beside a block that reaches to x = 0.
 LayerSupports under_a_square(int layer, Point p, Unit half, const Settings& settings) {
@@ -82,11 +85,13 @@ TEST_CASE("the root of a free tree moves to the middle of its longest path, tree
 }
 
 TEST_CASE("a tree on the shell stands free where the track down to the bed says so") {
-    // A wall of 2 x 25 mm that loses 0.2 mm a layer. On n layers each half counts until its middle is reached: min(n, 187.5) and min(n, 62.5)
-    // times 25 mm from the shell, twice the latter from the wall's middle, and 4 mm of pillar a layer.
+    // A wall of 2 x 25 mm that loses 0.2 mm a layer. On n layers each half counts until its middle is reached: min(n,
+    // 187.5) and min(n, 62.5) times 25 mm from the shell, twice the latter from the wall's middle, and 4 mm of pillar a
+    // layer.
     SupportForest wall = chain({{0, 0}, {2500000, 0}, {5000000, 0}});
     wall[0].root = true;
-    for (const auto& [layers, stands_free] : {std::pair{10, false}, {50, false}, {70, false}, {80, true}, {150, true}, {600, true}, {2500, false}}) {
+    for (const auto& [layers, stands_free] :
+         {std::pair{10, false}, {50, false}, {70, false}, {80, true}, {150, true}, {600, true}, {2500, false}}) {
         SupportForest tree = wall;
         free_where_cheaper(tree, layers, 20000, 400000);
         INFO(layers << " layers");
@@ -140,19 +145,22 @@ TEST_CASE("a wall to the object where that takes less track down to the bed, a p
         Unit distance;
         bool wall;
     };
-    for (const Case& c : {Case{100, 1000000, true}, Case{100, 1350000, false}, Case{10, 400000, true}, Case{10, 600000, false}, Case{400, 2400000, true}}) {
+    for (const Case& c : {Case{100, 1000000, true}, Case{100, 1350000, false}, Case{10, 400000, true},
+                          Case{10, 600000, false}, Case{400, 2400000, true}}) {
         const LayerSupports supports = under_a_square(c.layer, {c.distance, 0}, 10000, settings);
         INFO("layer " << c.layer << ", " << to_mm(c.distance) << " mm");
         CHECK(forest_fault(supports.forest) == "");
         const std::vector<std::size_t> root = roots(supports.forest);
         REQUIRE(root.size() == 1);
         CHECK(supports.forest[root[0]].free == !c.wall);
-        CHECK(total_length(supports.forest) == Approx(c.wall ? static_cast<double>(c.distance) : 400000.0).margin(20000));
+        CHECK(total_length(supports.forest) ==
+              Approx(c.wall ? static_cast<double>(c.distance) : 400000.0).margin(20000));
         for (auto [v, end] = vertices(supports.forest); v != end; ++v) CHECK(supports.forest[*v].outside);
     }
 }
 
-TEST_CASE("free supports go down to the bed as one tree each, no wall farther than the erosion step from the wall above") {
+TEST_CASE(
+    "free supports go down to the bed as one tree each, no wall farther than the erosion step from the wall above") {
     for (const Unit gap : {0, 20000}) {
         Settings settings;
         settings.support = Support::external;
@@ -160,12 +168,14 @@ TEST_CASE("free supports go down to the bed as one tree each, no wall farther th
         LayerSupports above = under_a_square(80, {2000000, 0}, 200000, settings);
         const std::size_t trees = component_count(above.forest);
         for (int layer = 79; layer >= 0; --layer) {
-            const LayerSupports below = next_layer(above.forest, beside(layer, {rectangle(-1000000, -1000000, 0, 1000000)}, settings), {}, settings);
+            const LayerSupports below = next_layer(
+                above.forest, beside(layer, {rectangle(-1000000, -1000000, 0, 1000000)}, settings), {}, settings);
             CHECK(forest_fault(below.forest) == "");
             CHECK(component_count(below.forest) == trees);
             CHECK(total_length(below.forest) <= total_length(above.forest) + 4);
             CHECK(total_length(below.forest) >= 0.9 * 400000);  // straightening takes a little
-            for (const Segment& s : tracks_of(above.forest)) CHECK(within(s, NearestSegment(tracks_of(below.forest)), settings.support_radius));
+            for (const Segment& s : tracks_of(above.forest))
+                CHECK(within(s, NearestSegment(tracks_of(below.forest)), settings.support_radius));
             above = below;
         }
         CHECK(total_length(above.forest) <= static_cast<double>(trees) * 400000 + 4);
@@ -188,7 +198,8 @@ TEST_CASE("a wide wall that comes out of a cavity has one line outside") {
     settings.support = Support::both;
     settings.wall_lines = 2;
     SupportForest above;
-    const auto root = add_vertex({.at = {100000, 0}, .root = true, .wide = true}, above), tip = add_vertex({.at = {900000, 0}, .wide = true}, above);
+    const auto root = add_vertex({.at = {100000, 0}, .root = true, .wide = true}, above),
+               tip = add_vertex({.at = {900000, 0}, .wide = true}, above);
     add_edge(root, tip, above);
     const SupportForest below = next_layer(above, beside(49, {}, settings), {}, settings).forest;
     REQUIRE(num_edges(below) > 0);

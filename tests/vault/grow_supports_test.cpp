@@ -175,7 +175,8 @@ TEST_CASE("ties are broken by the seed: the same seed gives the same bytes, anot
 TEST_CASE("narrow places have half the bonus when asked for, wide ones never") {
     const auto walls = [](const SupportForest& forest) {
         std::vector<std::pair<Point, Point>> all;
-        for (auto [e, end] = edges(forest); e != end; ++e) all.push_back({forest[source(*e, forest)].at, forest[target(*e, forest)].at});
+        for (auto [e, end] = edges(forest); e != end; ++e)
+            all.push_back({forest[source(*e, forest)].at, forest[target(*e, forest)].at});
         return all;
     };
     Settings whole, half, narrow;
@@ -183,7 +184,9 @@ TEST_CASE("narrow places have half the bonus when asked for, wide ones never") {
     narrow.narrow_bonus = true;
     // On either side of twice 3/4 d = 0.6 mm, far enough from the shell and long enough for many walls.
     const Region band{rectangle(-900000, 500000, 900000, 559000)}, roof{rectangle(-900000, 500000, 900000, 561500)};
-    const auto grown = [&](const Region& region, const Settings& settings) { return walls(grow_supports({}, region, room, 1, settings)); };
+    const auto grown = [&](const Region& region, const Settings& settings) {
+        return walls(grow_supports({}, region, room, 1, settings));
+    };
     CHECK(grown(band, whole) != grown(band, half));
     CHECK(grown(band, narrow) == grown(band, half));
     CHECK(grown(roof, whole) != grown(roof, half));

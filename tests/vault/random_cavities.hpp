@@ -25,14 +25,22 @@ inline Contour disc(Point centre, double radius, int corners, double turn = 0) {
 class DriftingShapes {
 public:
     DriftingShapes(std::mt19937_64& random, int solids, int islands, Unit size, Unit drift) {
-        const auto uniform = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
+        const auto uniform = [&](double lo, double hi) {
+            return std::uniform_real_distribution<double>(lo, hi)(random);
+        };
         const double s = static_cast<double>(size), d = static_cast<double>(drift);
         for (int k = 0; k < solids + islands; ++k) {
             const bool island = k >= solids;
             const int kind = static_cast<int>(uniform(0, 3));
-            shapes_.push_back({island, kind == 0 ? 24 : 4, kind == 1, {uniform(-s, s) / 2, uniform(-s, s) / 2},
-                               {uniform(-d, d), uniform(-d, d)}, (island ? 0.15 : 0.6) * uniform(0.3, 1) * s,
-                               uniform(-d, d) / 2, kind == 2 ? uniform(0, 1) : 0, kind == 2 ? uniform(-1, 1) * d / s : 0});
+            shapes_.push_back({island,
+                               kind == 0 ? 24 : 4,
+                               kind == 1,
+                               {uniform(-s, s) / 2, uniform(-s, s) / 2},
+                               {uniform(-d, d), uniform(-d, d)},
+                               (island ? 0.15 : 0.6) * uniform(0.3, 1) * s,
+                               uniform(-d, d) / 2,
+                               kind == 2 ? uniform(0, 1) : 0,
+                               kind == 2 ? uniform(-1, 1) * d / s : 0});
         }
     }
 
@@ -44,8 +52,9 @@ public:
             const double radius = s.radius + t * s.growth;
             if (radius < 100) continue;
             const Unit half = round_to_lattice(radius * 0.7);
-            Contour contour = s.axis_parallel ? rectangle(centre.x - half, centre.y - half, centre.x + half, centre.y + half)
-                                              : disc(centre, radius, s.corners, s.turn + t * s.spin);
+            Contour contour = s.axis_parallel
+                                  ? rectangle(centre.x - half, centre.y - half, centre.x + half, centre.y + half)
+                                  : disc(centre, radius, s.corners, s.turn + t * s.spin);
             (s.island ? islands : solids).push_back(std::move(contour));
         }
         return clip(ClipperLib::ctDifference, solids, islands);

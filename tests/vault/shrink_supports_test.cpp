@@ -9,7 +9,8 @@
 using namespace ribvault;
 using namespace ribvault::test;
 
-TEST_CASE("every point of grown supports lies within the step of the shrunk ones, which are rooted, planar and shorter") {
+TEST_CASE(
+    "every point of grown supports lies within the step of the shrunk ones, which are rooted, planar and shorter") {
     Random g(73);
     int layers = 0, moved_junctions = 0;
     double shrunk_length = 0, before_length = 0;
@@ -64,7 +65,8 @@ TEST_CASE("two walls from one root are zipped up from it") {
 }
 
 TEST_CASE("a root slides along the shell towards its wall") {
-    const SupportForest oblique = forest_of({{{0, 1000000}, {300000, 1300000}, {600000, 1300000}}, {0}, {{0, 1}, {1, 2}}});
+    const SupportForest oblique =
+        forest_of({{{0, 1000000}, {300000, 1300000}, {600000, 1300000}}, {0}, {{0, 1}, {1, 2}}});
     const ShrunkSupports slid = shrink_supports(oblique, square(), 20000);
     for (auto [v, end] = vertices(slid.forest); v != end; ++v)
         if (slid.forest[*v].root) {

@@ -71,7 +71,8 @@ TEST_CASE("long trees, tall trees and what grew out of them are wide, others are
 }
 
 TEST_CASE("a vertex between two others carries what stands there, and is wide when one of them is") {
-    const SupportVertex a{.at = {0, 0}, .root = true, .wide = true, .standing = 10}, b{.at = {10 * mm, 0}, .standing = 20};
+    const SupportVertex a{.at = {0, 0}, .root = true, .wide = true, .standing = 10},
+        b{.at = {10 * mm, 0}, .standing = 20};
     const SupportVertex middle = vertex_between(a, b, {5 * mm, 0});
     CHECK(middle.standing == 15);
     CHECK(middle.wide);

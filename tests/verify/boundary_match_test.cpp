@@ -46,7 +46,8 @@ struct Boundaries {
 };
 
 bool inside(const std::vector<Window>& windows, double x, double y) {
-    return std::any_of(windows.begin(), windows.end(), [&](const Window& w) { return w.lo_x <= x && x <= w.hi_x && w.lo_y <= y && y <= w.hi_y; });
+    return std::any_of(windows.begin(), windows.end(),
+                       [&](const Window& w) { return w.lo_x <= x && x <= w.hi_x && w.lo_y <= y && y <= w.hi_y; });
 }
 
 double area(const std::vector<Window>& windows) {
@@ -60,8 +61,10 @@ template <class Bump>
 Contour ring(Point centre, double radius, int n, int start, bool clockwise, const Bump& bump) {
     Contour loop;
     for (int k = 0; k < n; ++k) {
-        const double angle = 2 * pi * (k + start) / n * (clockwise ? -1 : 1), r = radius * (1 + 0.2 * std::sin(5 * angle)) + bump(angle);
-        loop.push_back({centre.x + round_to_lattice(r * std::cos(angle)), centre.y + round_to_lattice(r * std::sin(angle))});
+        const double angle = 2 * pi * (k + start) / n * (clockwise ? -1 : 1),
+                     r = radius * (1 + 0.2 * std::sin(5 * angle)) + bump(angle);
+        loop.push_back(
+            {centre.x + round_to_lattice(r * std::cos(angle)), centre.y + round_to_lattice(r * std::sin(angle))});
     }
     return loop;
 }
@@ -77,11 +80,14 @@ TEST_CASE("boundaries that are nowhere farther apart than the distance need no w
 
 TEST_CASE("a bump has a window of its own, and a ring without partner one around it") {
     Boundaries b;
-    const auto bump = [](double angle) { return std::fabs(std::remainder(angle - 1, 2 * pi)) < 0.1 ? 60000.0 : 5000.0; };
+    const auto bump = [](double angle) {
+        return std::fabs(std::remainder(angle - 1, 2 * pi)) < 0.1 ? 60000.0 : 5000.0;
+    };
     b.add(b.moved, ring({0, 0}, 1e6, 300, 17, false, bump));
     b.add(b.fixed, ring({0, 0}, 1e6, 211, 100, false, [](double) { return 0.0; }));
     CHECK(area(b.windows()) < 0.05 * 4e12);
-    CHECK(inside(b.windows(), 1.05e6 * (1 + 0.2 * std::sin(5.0)) * std::cos(1.0), 1.05e6 * (1 + 0.2 * std::sin(5.0)) * std::sin(1.0)));
+    CHECK(inside(b.windows(), 1.05e6 * (1 + 0.2 * std::sin(5.0)) * std::cos(1.0),
+                 1.05e6 * (1 + 0.2 * std::sin(5.0)) * std::sin(1.0)));
     const std::size_t before = b.windows().size();
     b.add(b.moved, ring({3000000, 0}, 2e5, 20, 0, false, [](double) { return 0.0; }));
     REQUIRE(b.windows().size() == before + 1);
@@ -96,7 +102,8 @@ TEST_CASE("edges that are no closed chains have no windows") {
     CHECK_FALSE(windows_of_change(b.vertices, b.moved, b.fixed, rho).has_value());
 }
 
-TEST_CASE("every point with another winding number, farther than the distance from the boundary, is in a window", "[agreement]") {
+TEST_CASE("every point with another winding number, farther than the distance from the boundary, is in a window",
+          "[agreement]") {
     std::mt19937 random(7);
     const auto uniform = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
     std::size_t differing = 0, outside = 0;
@@ -106,11 +113,18 @@ TEST_CASE("every point with another winding number, farther than the distance fr
         for (int k = 0; k < rings; ++k) {
             // Concentric ones turn in turn, as outlines and holes do; their spacing is of the order of the distance.
             const double radius = 3e5 - k * uniform(2e4, 8e4);
-            const double from = uniform(0, 6), width = uniform(0, 2), high = uniform(-9e4, 9e4), drift = uniform(-1.5e4, 1.5e4);
-            const auto bump = [&](double angle) { return drift + (std::fabs(std::remainder(angle - from, 2 * pi)) < width ? high : 0); };
+            const double from = uniform(0, 6), width = uniform(0, 2), high = uniform(-9e4, 9e4),
+                         drift = uniform(-1.5e4, 1.5e4);
+            const auto bump = [&](double angle) {
+                return drift + (std::fabs(std::remainder(angle - from, 2 * pi)) < width ? high : 0);
+            };
             const int n = 3 + static_cast<int>(uniform(0, 80));
-            if (round % 7 != 1) b.add(b.moved, ring({round_to_lattice(uniform(-2e4, 2e4)), 0}, radius, n, static_cast<int>(uniform(0, 9)), k % 2 != 0, bump));
-            if (round % 5 != 1) b.add(b.fixed, ring({0, 0}, radius, 3 + static_cast<int>(uniform(0, 80)), 0, k % 2 != 0, [](double) { return 0.0; }));
+            if (round % 7 != 1)
+                b.add(b.moved, ring({round_to_lattice(uniform(-2e4, 2e4)), 0}, radius, n,
+                                    static_cast<int>(uniform(0, 9)), k % 2 != 0, bump));
+            if (round % 5 != 1)
+                b.add(b.fixed, ring({0, 0}, radius, 3 + static_cast<int>(uniform(0, 80)), 0, k % 2 != 0,
+                                    [](double) { return 0.0; }));
         }
         const std::vector<Window> windows = b.windows();
         for (int i = 0; i < 400; ++i) {

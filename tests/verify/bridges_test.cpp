@@ -9,12 +9,15 @@ namespace {
 
 const Rational radius(1, 5), width(2, 5);
 
-PrintedTrack track(double x0, double y0, double x1, double y1) { return {{Rational(x0), Rational(y0)}, {Rational(x1), Rational(y1)}, width, 0, 0}; }
+PrintedTrack track(double x0, double y0, double x1, double y1) {
+    return {{Rational(x0), Rational(y0)}, {Rational(x1), Rational(y1)}, width, 0, 0};
+}
 
 /// Piers from x = 0 to 2 and from x = 8 to 10.
 PrintedLayer piers() { return {0, 0, {track(0, 0, 2, 0), track(8, 0, 10, 0)}}; }
 
-std::vector<Bridge> bridges(const PrintedLayer& upper, const std::vector<char>& continues, double longest, const std::vector<char>& judged = {}) {
+std::vector<Bridge> bridges(const PrintedLayer& upper, const std::vector<char>& continues, double longest,
+                            const std::vector<char>& judged = {}) {
     PrintedOptions lines;
     lines.areas = lines.regions = false;
     lines.judged = judged;
@@ -59,8 +62,9 @@ TEST_CASE("a track that is not judged holds no bridge", "[bridges]") {
 
 TEST_CASE("what is left without a bridge is held up and lies on the track", "[bridges]") {
     for (const bool joined : {false, true}) {
-        const PrintedLayer upper = joined ? PrintedLayer{0, 0, {track(0, 0, 2.5, 0), track(2.5, 0, 7.5, 0), track(7.5, 0, 10, 0)}}
-                                          : PrintedLayer{0, 0, {track(0, 0, 10, 0)}};
+        const PrintedLayer upper =
+            joined ? PrintedLayer{0, 0, {track(0, 0, 2.5, 0), track(2.5, 0, 7.5, 0), track(7.5, 0, 10, 0)}}
+                   : PrintedLayer{0, 0, {track(0, 0, 10, 0)}};
         const std::vector<char> continues = joined ? std::vector<char>{0, 1, 1} : std::vector<char>{0};
         PrintedOptions lines;
         lines.areas = lines.regions = false;

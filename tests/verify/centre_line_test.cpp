@@ -1,4 +1,5 @@
-// Unsupported stretches of a centre line, with exact ends and without: the same stretches, their ends where they are said to be.
+// Unsupported stretches of a centre line, with exact ends and without: the same stretches, their ends where they are
+// said to be.
 #include "ribvault/verify/centre_line.hpp"
 
 #include <catch2/catch.hpp>
@@ -41,7 +42,8 @@ Scene random_scene(std::mt19937_64& random, std::int64_t jitter, std::int64_t ap
     };
     const auto beside = [&](const PrintedPoint& p) {
         std::uniform_int_distribution<std::int64_t> shift(-apart, apart);
-        return PrintedPoint{Millimetres::of_picometres(p[0].picometres() + shift(random)), Millimetres::of_picometres(p[1].picometres() + shift(random))};
+        return PrintedPoint{Millimetres::of_picometres(p[0].picometres() + shift(random)),
+                            Millimetres::of_picometres(p[1].picometres() + shift(random))};
     };
     Scene scene;
     scene.track.a = {place(0, 0), place(0, 0)}, scene.track.b = {place(60, 80), place(-10, 10)};
@@ -66,7 +68,11 @@ TEST_CASE("ends of unsupported stretches lie where the doubles say, asked for ex
     std::mt19937_64 random(5);
     std::size_t found = 0;
     for (int trial = 0; trial < 12000; ++trial) {
-        const Scene scene = random_scene(random, trial % 3 == 0 ? 0 : trial % 3 == 1 ? 1 : 1000, trial % 4 == 0 ? 0 : 4 + trial % 12);
+        const Scene scene = random_scene(random,
+                                         trial % 3 == 0   ? 0
+                                         : trial % 3 == 1 ? 1
+                                                          : 1000,
+                                         trial % 4 == 0 ? 0 : 4 + trial % 12);
         const std::vector<CentreGap> exact = scene.gaps(true), about = scene.gaps(false);
         REQUIRE(exact.size() == about.size());
         found += exact.size();
@@ -74,7 +80,8 @@ TEST_CASE("ends of unsupported stretches lie where the doubles say, asked for ex
         // What doubles call inside a distance is off by a few of their last places.
         constexpr double rounding = 1e-13;
         for (std::size_t k = 0; k < exact.size(); ++k) {
-            const double from = enclose(exact[k].from, 60)[0].get_d() * length, to = enclose(exact[k].to, 60)[0].get_d() * length;
+            const double from = enclose(exact[k].from, 60)[0].get_d() * length,
+                         to = enclose(exact[k].to, 60)[0].get_d() * length;
             CHECK(about[k].from_lo <= from + rounding);
             CHECK(from <= about[k].from_hi + rounding);
             CHECK(about[k].to_lo <= to + rounding);

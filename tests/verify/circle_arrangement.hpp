@@ -1,5 +1,6 @@
-// Equation (2) by an arrangement of circular arcs: exact, and by another road than src/ribvault/verify, which constructs no
-// boundary. Offset lines must have rational coefficients, so tracks and edges below run along the axes or with a 3-4-5 slope.
+// Equation (2) by an arrangement of circular arcs: exact, and by another road than src/ribvault/verify, which
+// constructs no boundary. Offset lines must have rational coefficients, so tracks and edges below run along the axes or
+// with a 3-4-5 slope.
 #pragma once
 
 #include <CGAL/General_polygon_set_2.h>
@@ -26,7 +27,8 @@ inline ArcPolygon straight_polygon(const std::vector<ExactPoint>& points) {
 inline ArcSet stadium_set(Point a, Point b, Unit radius) {
     const auto disc = [&](Point c) {
         ArcTraits traits;
-        const ArcTraits::Curve_2 circle(ExactKernel::Circle_2(ExactPoint(Exact(c.x), Exact(c.y)), Exact(radius) * Exact(radius)));
+        const ArcTraits::Curve_2 circle(
+            ExactKernel::Circle_2(ExactPoint(Exact(c.x), Exact(c.y)), Exact(radius) * Exact(radius)));
         std::vector<CGAL::Object> parts;
         traits.make_x_monotone_2_object()(circle, std::back_inserter(parts));
         ArcPolygon polygon;
@@ -72,8 +74,8 @@ inline ArcSet outline_set(const ExactPolygons& outline) {
 struct ArcVerdict {
     bool internal = false, external = false;  ///< not empty
 };
-inline ArcVerdict decide_by_arcs(const Layer& upper, const ArcSet& hollow_above, const Layer& lower, const ArcSet& hollow_below,
-                                 const Settings& s) {
+inline ArcVerdict decide_by_arcs(const Layer& upper, const ArcSet& hollow_above, const Layer& lower,
+                                 const ArcSet& hollow_below, const Settings& s) {
     ArcSet material = outline_set(upper.exact);
     material.difference(hollow_above);
     const Unit r = s.nozzle / 2, rho = s.support_radius;

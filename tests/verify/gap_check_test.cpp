@@ -14,7 +14,8 @@ using FT = ExactKernel::FT;
 /// A square of 10 mm whose right side is at x = 5 + more, with a square hole of 4 mm.
 ExactPolygons frame(const FT& more = 0) {
     ExactPolygon outer, hole;
-    for (const auto& [x, y] : {std::pair<FT, FT>{-5, -5}, {5 + more, -5}, {5 + more, 5}, {-5, 5}}) outer.push_back({x, y});
+    for (const auto& [x, y] : {std::pair<FT, FT>{-5, -5}, {5 + more, -5}, {5 + more, 5}, {-5, 5}})
+        outer.push_back({x, y});
     for (const auto& [x, y] : {std::pair<FT, FT>{-2, -2}, {-2, 2}, {2, 2}, {2, -2}}) hole.push_back({x, y});
     ExactPolygons polygons;
     polygons.polygons.emplace_back(outer);
@@ -30,7 +31,7 @@ TEST_CASE("a track as far as the gap is far enough, one nearer by less than any 
     CHECK_FALSE(keeps_off({{540000, -900000}, {540000, 900000}}, FT(1) / FT(1e30)));
     CHECK(keeps_off({{540000, -900000}, {540000, 900000}}, -FT(1) / FT(1e30)));
     CHECK_FALSE(keeps_off({{539999, 0}, {900000, 0}}));
-    CHECK(keeps_off({{524000, 532000}, {524000, 532000}}));        // a dot at exactly 0.4 mm from a corner: 0.24 and 0.32
+    CHECK(keeps_off({{524000, 532000}, {524000, 532000}}));  // a dot at exactly 0.4 mm from a corner: 0.24 and 0.32
     CHECK_FALSE(keeps_off({{524000, 531999}, {524000, 531999}}));
 }
 
@@ -46,7 +47,8 @@ TEST_CASE("in a hole is outside, in the solid is not, across is not") {
 
 TEST_CASE("tracks of the object and of supports keep their distance, ties are far enough") {
     const NearestSegment object({{{0, 0}, {60000, 80000}}, {{500000, 0}, {500000, 0}}});
-    const Segment far{{48000, -36000}, {900000, -36000}};  // 60000 from the first, square to its end, and 36000 from the dot
+    const Segment far{{48000, -36000},
+                      {900000, -36000}};  // 60000 from the first, square to its end, and 36000 from the dot
     CHECK_FALSE(find_too_near(object, {far}, 36000));
     CHECK(find_too_near(object, {far}, 36001));
     CHECK_FALSE(find_too_near(object, {{far.a, far.a}, {{900000, 0}, {900000, 0}}}, 60000));

@@ -1,6 +1,6 @@
-// Degenerate layers against an arrangement of circular arcs: cavities whose contours touch, overlap, share edges or cancel;
-// tracks that coincide, run against each other, are points; material whose rational vertices are 1e-7 units or 1e-20 mm
-// from a tie; everything turned by a 3-4-5 rotation so that ties are not between axis-parallel lines only.
+// Degenerate layers against an arrangement of circular arcs: cavities whose contours touch, overlap, share edges or
+// cancel; tracks that coincide, run against each other, are points; material whose rational vertices are 1e-7 units or
+// 1e-20 mm from a tie; everything turned by a 3-4-5 rotation so that ties are not between axis-parallel lines only.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <iostream>
@@ -31,7 +31,8 @@ struct Case {
     Layer upper, lower;
     ArcSet hollow_above, hollow_below;
     Settings how;
-    bool hair = false;  ///< something is 1e-12 mm or less from a tie: there may be no double to witness it, or none is found
+    /// Something is 1e-12 mm or less from a tie: there may be no double to witness it, or none is found.
+    bool hair = false;
 };
 
 /// A cavity of unit squares of a grid, given by contours that touch, repeat and cancel, and what is really hollow.
@@ -56,15 +57,18 @@ Hollow grid_cavity(Random& g, Unit cell, int n, const Turn& turn) {
     if (pick(g, 0, 1)) block(0, 0, n, n, false);
     for (int k = static_cast<int>(pick(g, 1, 6)); k > 0; --k) {
         const int x0 = static_cast<int>(pick(g, 0, n - 1)), y0 = static_cast<int>(pick(g, 0, n - 1));
-        const int x1 = static_cast<int>(pick(g, x0 + 1, std::min(n, x0 + 2))), y1 = static_cast<int>(pick(g, y0 + 1, std::min(n, y0 + 2)));
-        // Contours of a cavity may not cross: blocks are single cells or bars, which may still cross as bars; see below.
+        const int x1 = static_cast<int>(pick(g, x0 + 1, std::min(n, x0 + 2))),
+                  y1 = static_cast<int>(pick(g, y0 + 1, std::min(n, y0 + 2)));
+        // Contours of a cavity may not cross: blocks are single cells or bars, which may still cross as bars; see
+        // below.
         if (x1 - x0 == 2 && y1 - y0 == 2) continue;
         block(x0, y0, x1, y1, pick(g, 0, 2) == 0);
     }
     for (int x = 0; x < n; ++x)
         for (int y = 0; y < n; ++y)
             if (winding[static_cast<std::size_t>(x) * n + y] != 0)
-                h.squares.push_back(turn(rectangle(lo + x * cell, lo + y * cell, lo + (x + 1) * cell, lo + (y + 1) * cell)));
+                h.squares.push_back(
+                    turn(rectangle(lo + x * cell, lo + y * cell, lo + (x + 1) * cell, lo + (y + 1) * cell)));
     return h;
 }
 ArcSet set_of(const std::vector<Contour>& squares) {
@@ -111,7 +115,8 @@ std::vector<Segment> random_tracks(Random& g, Unit most, Unit half, Unit step, U
 
 /// A tiny exact displacement, in mm.
 Exact sliver(Random& g, bool& hair) {
-    static const Exact tiny[] = {Exact(0), Exact(0), Exact(1) / Exact(1e12), Exact(1) / Exact(1e20), Exact(1) / Exact(1e30) / Exact(3)};
+    static const Exact tiny[] = {Exact(0), Exact(0), Exact(1) / Exact(1e12), Exact(1) / Exact(1e20),
+                                 Exact(1) / Exact(1e30) / Exact(3)};
     const Unit which = pick(g, 0, 4), sign = pick(g, -1, 1);
     hair = hair || (which > 1 && sign != 0);
     return tiny[which] * Exact(sign);
@@ -151,7 +156,8 @@ Case internal_case(Random& g) {
             Contour triangle;
             do {
                 triangle.clear();
-                for (int i = 0; i < 3; ++i) triangle.push_back(at + Point{pick(g, -3, 3) * step, pick(g, -3, 3) * step});
+                for (int i = 0; i < 3; ++i)
+                    triangle.push_back(at + Point{pick(g, -3, 3) * step, pick(g, -3, 3) * step});
             } while (signed_area({triangle}) <= 0);
             c.upper.exact.polygons.emplace_back(nudged(g, turn(triangle), c.hair));
         }
@@ -217,10 +223,10 @@ void run(const char* name, Case (*make)(Random&), std::uint64_t first, std::uint
         Random g(seed);
         compare_case(make(g), seed, tally);
     }
-    std::cout << name << ": " << tally.cases << " compared (internal " << tally.internal << ", external " << tally.external
-              << " not supported), malformed " << tally.malformed << ", witness not certified " << tally.uncertified
-              << "; decided by intervals " << tally.stages.interval << ", rationals " << tally.stages.rational
-              << ", algebraic numbers " << tally.stages.algebraic << "\n";
+    std::cout << name << ": " << tally.cases << " compared (internal " << tally.internal << ", external "
+              << tally.external << " not supported), malformed " << tally.malformed << ", witness not certified "
+              << tally.uncertified << "; decided by intervals " << tally.stages.interval << ", rationals "
+              << tally.stages.rational << ", algebraic numbers " << tally.stages.algebraic << "\n";
     CHECK(tally.cases > 0);
 }
 

@@ -1,5 +1,5 @@
-// What may not change a verdict: where the layers lie, how they are turned, in which pieces and in which order tracks come.
-// For tracks of any direction, where no arrangement with rational coefficients exists.
+// What may not change a verdict: where the layers lie, how they are turned, in which pieces and in which order tracks
+// come. For tracks of any direction, where no arrangement with rational coefficients exists.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -35,7 +35,8 @@ Plain random_layers(Random& g) {
         default: p.cavity_above = {square(pick(g, 2, 8) * step)};
     }
     const auto point = [&] { return Point{pick(g, -half, half) * step, pick(g, -half, half) * step}; };
-    for (Unit n = pick(g, 1, 7); n > 0; --n) p.below.push_back({p.below.empty() || pick(g, 0, 1) ? point() : p.below.back().b, point()});
+    for (Unit n = pick(g, 1, 7); n > 0; --n)
+        p.below.push_back({p.below.empty() || pick(g, 0, 1) ? point() : p.below.back().b, point()});
     for (Unit n = pick(g, 0, 2); n > 0; --n) {
         const Segment& f = p.below[static_cast<std::size_t>(pick(g, 0, static_cast<Unit>(p.below.size()) - 1))];
         const Point by{pick(g, -2, 2) * step, pick(g, -2, 2) * step};
@@ -116,11 +117,13 @@ TEST_CASE("a verdict does not depend on place, turn or the pieces that tracks co
         same(rearranged(p, g), "in pieces");
         same(mapped(p, [](Point q) { return Point{-q.y, q.x}; }, false), "a quarter turn");
         same(mapped(p, [](Point q) { return Point{q.y, q.x}; }, true), "mirrored");
-        const Point away{pick(g, -1, 1) * 900000000 + pick(g, -999, 999), pick(g, -1, 1) * 900000000 + pick(g, -999, 999)};
+        const Point away{pick(g, -1, 1) * 900000000 + pick(g, -999, 999),
+                         pick(g, -1, 1) * 900000000 + pick(g, -999, 999)};
         same(mapped(rearranged(p, g), [&](Point q) { return q + away; }, false), "moved");
     }
-    std::cout << "invariance: supported " << supported << ", not " << refuted << "; decided by intervals " << stages.interval
-              << ", rationals " << stages.rational << ", algebraic numbers " << stages.algebraic << "\n";
+    std::cout << "invariance: supported " << supported << ", not " << refuted << "; decided by intervals "
+              << stages.interval << ", rationals " << stages.rational << ", algebraic numbers " << stages.algebraic
+              << "\n";
     CHECK(supported > 100);
     CHECK(refuted > 100);
 }

@@ -8,13 +8,14 @@ using namespace ribvault;
 
 namespace {
 
-
-
-PrintedTrack piece(PrintedPoint a, PrintedPoint b, bool outline = false) { return {a, b, Rational(2, 5), 0, 0, outline}; }
+PrintedTrack piece(PrintedPoint a, PrintedPoint b, bool outline = false) {
+    return {a, b, Rational(2, 5), 0, 0, outline};
+}
 
 PrintedLayer loop(const std::vector<PrintedPoint>& points) {
     PrintedLayer layer;
-    for (std::size_t k = 0; k < points.size(); ++k) layer.tracks.push_back(piece(points[k], points[(k + 1) % points.size()], true));
+    for (std::size_t k = 0; k < points.size(); ++k)
+        layer.tracks.push_back(piece(points[k], points[(k + 1) % points.size()], true));
     return layer;
 }
 
@@ -64,7 +65,8 @@ TEST_CASE("holes are outside, and an outline that does not close is none") {
     CHECK(stretches_outside(above({piece({1, 4}, {8, 4})}), lower).size() == 1);
 }
 
-TEST_CASE("pieces agree with even-odd counting in rationals on coarse lattices, where tracks run over corners and sides") {
+TEST_CASE(
+    "pieces agree with even-odd counting in rationals on coarse lattices, where tracks run over corners and sides") {
     std::mt19937_64 random(7);
     const auto coordinate = [&] { return Rational(static_cast<long>(random() % 7)); };
     for (int round = 0; round < 3000; ++round) {
@@ -76,7 +78,8 @@ TEST_CASE("pieces agree with even-odd counting in rationals on coarse lattices, 
         const auto outside = stretches_outside(above({track}), lower);
         for (int part = 1; part < 40; ++part) {
             const Rational t(2 * part + 1, 82);
-            const PrintedPoint p{track.a[0] + t * (track.b[0] - track.a[0]), track.a[1] + t * (track.b[1] - track.a[1])};
+            const PrintedPoint p{track.a[0] + t * (track.b[0] - track.a[0]),
+                                 track.a[1] + t * (track.b[1] - track.a[1])};
             bool odd = false, on = false;
             for (const PrintedTrack& e : lower.tracks) {
                 const Rational c = (e.b[0] - e.a[0]) * (p[1] - e.a[1]) - (e.b[1] - e.a[1]) * (p[0] - e.a[0]);

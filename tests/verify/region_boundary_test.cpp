@@ -36,7 +36,9 @@ double off_curve(const BoundaryCurve& c, const Point2& p) {
 // By how much the angle about p grows along a piece, by small steps; `least` becomes the least distance seen.
 double turned(const RegionBoundary& b, const BoundaryPiece& piece, const Point2& p, double& least) {
     const BoundaryCurve& c = b.curves[piece.curve];
-    const auto angle = [](const Point2& u, const Point2& v) { return std::atan2(u.x * v.y - u.y * v.x, u.x * v.x + u.y * v.y); };
+    const auto angle = [](const Point2& u, const Point2& v) {
+        return std::atan2(u.x * v.y - u.y * v.x, u.x * v.x + u.y * v.y);
+    };
     const auto from_p = [&](const Point2& q) {
         least = std::min(least, std::hypot(q.x - p.x, q.y - p.y));
         return Point2{q.x - p.x, q.y - p.y};
@@ -51,11 +53,14 @@ double turned(const RegionBoundary& b, const BoundaryPiece& piece, const Point2&
     const Point2 m = place(c.a);
     const double r = c.radius.get_d(), sweep = piece.angle * piece.turn;
     double from = 0;
-    if (piece.from != BoundaryPiece::nowhere) from = std::atan2(place(b, piece.from).y - m.y, place(b, piece.from).x - m.x);
+    if (piece.from != BoundaryPiece::nowhere)
+        from = std::atan2(place(b, piece.from).y - m.y, place(b, piece.from).x - m.x);
     constexpr int steps = 64;
     double total = 0;
     for (int i = 0; i < steps; ++i) {
-        const auto at = [&](int k) { return Point2{m.x + r * std::cos(from + sweep * k / steps), m.y + r * std::sin(from + sweep * k / steps)}; };
+        const auto at = [&](int k) {
+            return Point2{m.x + r * std::cos(from + sweep * k / steps), m.y + r * std::sin(from + sweep * k / steps)};
+        };
         total += angle(from_p(at(i)), from_p(at(i + 1)));
     }
     return total;
@@ -80,7 +85,8 @@ void check_closed(const RegionBoundary& b) {
         CHECK(v.y[1] - v.y[0] < 1e-9);
     }
     for (std::size_t v = 0; v < b.vertices.size(); ++v)
-        for (const std::size_t curve : {b.vertices[v].first, b.vertices[v].second}) CHECK(off_curve(b.curves[curve], place(b, v)) < 1e-7);
+        for (const std::size_t curve : {b.vertices[v].first, b.vertices[v].second})
+            CHECK(off_curve(b.curves[curve], place(b, v)) < 1e-7);
     CHECK(!b.components.empty());
     for (const RegionComponent& component : b.components) {
         CHECK(component.area_lo > 0);
@@ -102,7 +108,8 @@ void check_closed(const RegionBoundary& b) {
                     CHECK(loop.size() == 1);
                     continue;
                 }
-                for (const std::size_t end : {piece.from, piece.to}) CHECK(off_curve(b.curves[piece.curve], place(b, end)) < 1e-7);
+                for (const std::size_t end : {piece.from, piece.to})
+                    CHECK(off_curve(b.curves[piece.curve], place(b, end)) < 1e-7);
             }
         }
     }
@@ -113,7 +120,8 @@ struct Square {
     double x, y, half;
     bool operator<(const Square& o) const { return half < o.half; }
 };
-std::array<double, 2> area_by_squares(const PrintedLayer& upper, const PrintedLayer& lower, double rho, double half, int budget) {
+std::array<double, 2> area_by_squares(const PrintedLayer& upper, const PrintedLayer& lower, double rho, double half,
+                                      int budget) {
     struct Capsule {
         double ax, ay, dx, dy, n, r;
         double beyond(double x, double y) const {  // distance to it; negative inside
@@ -149,7 +157,8 @@ std::array<double, 2> area_by_squares(const PrintedLayer& upper, const PrintedLa
                 const Square q{s.x + dx, s.y + dy, h};
                 const auto misses = [&](const Capsule& c) { return c.misses(q); };
                 const auto holds = [&](const Capsule& c) { return c.holds(q); };
-                if (std::all_of(above.begin(), above.end(), misses) || std::any_of(below.begin(), below.end(), holds)) continue;
+                if (std::all_of(above.begin(), above.end(), misses) || std::any_of(below.begin(), below.end(), holds))
+                    continue;
                 if (std::any_of(above.begin(), above.end(), holds) && std::all_of(below.begin(), below.end(), misses))
                     lo += 4 * h * h;
                 else
@@ -197,15 +206,16 @@ TEST_CASE("a track in the air is bounded by two sides and two arcs, joined track
     check_closed(one.regions.at(0).boundary);
     CHECK(figures(one).pieces == 4);
     CHECK(figures(one).lo == Approx(5 + M_PI / 4).epsilon(1e-9));
-    const PrintedVerdict chain = traced(printed({track(0, 0, 3, 4, 1), track(3, 4, 6, 8, 1), track(6, 8, 3, 4, 1)}), printed({}), q("1/5"));
+    const PrintedVerdict chain =
+        traced(printed({track(0, 0, 3, 4, 1), track(3, 4, 6, 8, 1), track(6, 8, 3, 4, 1)}), printed({}), q("1/5"));
     CHECK(figures(chain).pieces == 4);
     CHECK(figures(chain).lo == Approx(10 + M_PI / 4).epsilon(1e-9));
 }
 
 TEST_CASE("a hole, and a component in it", "[boundary]") {
     // A disc of radius 4 over a ring of tracks that hold what is within 1/2 of a square of side 4.
-    const PrintedLayer ring = printed({track(-2, -2, 2, -2, q("1/2")), track(2, -2, 2, 2, q("1/2")), track(2, 2, -2, 2, q("1/2")),
-                                       track(-2, 2, -2, -2, q("1/2"))});
+    const PrintedLayer ring = printed({track(-2, -2, 2, -2, q("1/2")), track(2, -2, 2, 2, q("1/2")),
+                                       track(2, 2, -2, 2, q("1/2")), track(-2, 2, -2, -2, q("1/2"))});
     const PrintedVerdict v = traced(printed({dot(0, 0, 8)}), ring, q("1/4"));
     REQUIRE(v.regions.size() == 1);
     check_closed(v.regions[0].boundary);
@@ -215,13 +225,16 @@ TEST_CASE("a hole, and a component in it", "[boundary]") {
     CHECK(figures(v).lo == Approx(16 * M_PI - ring_area).epsilon(1e-9));
 }
 
-TEST_CASE("where stadiums touch in a point the region on both sides is two components, or one that touches itself", "[boundary]") {
+TEST_CASE("where stadiums touch in a point the region on both sides is two components, or one that touches itself",
+          "[boundary]") {
     // Two dots below that touch each other inside a track above: it is cut in two where they reach across.
-    const PrintedVerdict cut = traced(printed({track(-5, 0, 5, 0, 2)}), printed({dot(0, 1, 1), dot(0, -1, 1)}), q("1/2"));
+    const PrintedVerdict cut =
+        traced(printed({track(-5, 0, 5, 0, 2)}), printed({dot(0, 1, 1), dot(0, -1, 1)}), q("1/2"));
     REQUIRE(cut.regions.size() == 1);
     check_closed(cut.regions[0].boundary);
     CHECK(figures(cut).components == 2);
-    // Two dots that touch each other inside a wide dot: one component whose one hole is two discs, run round at once or apart.
+    // Two dots that touch each other inside a wide dot: one component whose one hole is two discs, run round at once or
+    // apart.
     const PrintedVerdict holes = traced(printed({dot(0, 0, 8)}), printed({dot(0, 1, 1), dot(0, -1, 1)}), q("1/2"));
     check_closed(holes.regions.at(0).boundary);
     CHECK(figures(holes).components == 1);
@@ -233,9 +246,11 @@ TEST_CASE("where stadiums touch in a point the region on both sides is two compo
     CHECK(figures(moon).loops == 1);
     CHECK(figures(moon).lo == Approx(12 * M_PI).epsilon(1e-9));
     // Seven hundredths of 10^-30 further out, or less, and it is a hole, or a bite.
-    const PrintedVerdict hole = traced(printed({dot(0, 0, 8)}), printed({track(2 - tiny(30), 0, 2 - tiny(30), 0, 3)}), q("1/2"));
+    const PrintedVerdict hole =
+        traced(printed({dot(0, 0, 8)}), printed({track(2 - tiny(30), 0, 2 - tiny(30), 0, 3)}), q("1/2"));
     CHECK(figures(hole).loops == 2);
-    const PrintedVerdict bite = traced(printed({dot(0, 0, 8)}), printed({track(2 + tiny(30), 0, 2 + tiny(30), 0, 3)}), q("1/2"));
+    const PrintedVerdict bite =
+        traced(printed({dot(0, 0, 8)}), printed({track(2 + tiny(30), 0, 2 + tiny(30), 0, 3)}), q("1/2"));
     CHECK(figures(bite).loops == 1);
     CHECK(figures(bite).pieces == 2);
 }
@@ -260,7 +275,8 @@ TEST_CASE("regions of 10^-20 and 10^-60 mm2 are traced", "[boundary]") {
     }
 }
 
-TEST_CASE("traced boundaries agree with the area by squares and the inside by rationals on random small layers", "[boundary]") {
+TEST_CASE("traced boundaries agree with the area by squares and the inside by rationals on random small layers",
+          "[boundary]") {
     const Rational rho = q("1/2");
     double tightness = 0;
     int layers = 0, regions = 0, points = 0, near = 0, inside = 0, holes = 0;
@@ -274,7 +290,8 @@ TEST_CASE("traced boundaries agree with the area by squares and the inside by ra
         CHECK(v.supported == v.regions.empty());
         for (const UnsupportedRegion& r : v.regions) {
             check_closed(r.boundary);
-            for (const RegionComponent& component : r.boundary.components) holes += static_cast<int>(component.loops.size()) - 1;
+            for (const RegionComponent& component : r.boundary.components)
+                holes += static_cast<int>(component.loops.size()) - 1;
             CHECK(r.area_hi - r.area_lo <= 1e-6 * r.area_hi);
             ++regions;
         }
@@ -285,7 +302,8 @@ TEST_CASE("traced boundaries agree with the area by squares and the inside by ra
         tightness += (area[1] - area[0]) / area[1];
         ++layers;
         for (int i = 0; i < 8; ++i) {
-            const double x = static_cast<double>(pick(g, -6000, 6000)) / 1000, y = static_cast<double>(pick(g, -6000, 6000)) / 1000;
+            const double x = static_cast<double>(pick(g, -6000, 6000)) / 1000,
+                         y = static_cast<double>(pick(g, -6000, 6000)) / 1000;
             int around = 0;
             bool told = true;
             for (const UnsupportedRegion& r : v.regions) {
@@ -303,9 +321,9 @@ TEST_CASE("traced boundaries agree with the area by squares and the inside by ra
             ++points, inside += out;
         }
     }
-    std::cout << "boundaries: " << regions << " regions traced, " << holes << " holes; " << points << " points, " << inside
-              << " of them inside, " << near << " too near to a boundary; " << layers << " areas, by squares on average to within "
-              << tightness / layers * 100 << " %\n";
+    std::cout << "boundaries: " << regions << " regions traced, " << holes << " holes; " << points << " points, "
+              << inside << " of them inside, " << near << " too near to a boundary; " << layers
+              << " areas, by squares on average to within " << tightness / layers * 100 << " %\n";
     CHECK(regions > 10000);
     CHECK(inside > 1000);
     CHECK(holes > 20);

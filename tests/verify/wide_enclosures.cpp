@@ -18,7 +18,8 @@ Exact wide(double mm, double detour) { return (Exact(mm) + Exact(detour)) - Exac
 ExactPolygon wide_rectangle(double x0, double y0, double x1, double y1, double detour) {
     const auto at = [&](double x, double y) { return ExactKernel::Point_2(wide(x, detour), wide(y, detour)); };
     ExactPolygon polygon;
-    polygon.push_back(at(x0, y0)), polygon.push_back(at(x1, y0)), polygon.push_back(at(x1, y1)), polygon.push_back(at(x0, y1));
+    polygon.push_back(at(x0, y0)), polygon.push_back(at(x1, y0)), polygon.push_back(at(x1, y1)),
+        polygon.push_back(at(x0, y1));
     return polygon;
 }
 

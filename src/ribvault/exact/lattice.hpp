@@ -7,8 +7,8 @@
 
 namespace ribvault {
 
-/// A length or coordinate in lattice units. One unit is 10 nm, so every decimal with up to five places (in mm) is exact,
-/// and so is every coordinate that the G-code writer prints.
+/// A length or coordinate in lattice units. One unit is 10 nm, so every decimal with up to five places (in mm) is
+/// exact, and so is every coordinate that the G-code writer prints.
 using Unit = std::int64_t;
 
 inline constexpr Unit units_per_mm = 100000;

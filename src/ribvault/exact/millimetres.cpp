@@ -23,9 +23,13 @@ double cut_off(std::int64_t value) {
 
 std::optional<std::int64_t> in_picometres(const Rational& value) {
     const mpz_class& below = value.get_den();
-    if (!below.fits_slong_p() || Millimetres::picometres_per_mm % below.get_si() != 0 || !value.get_num().fits_slong_p()) return std::nullopt;
+    if (!below.fits_slong_p() || Millimetres::picometres_per_mm % below.get_si() != 0 ||
+        !value.get_num().fits_slong_p())
+        return std::nullopt;
     std::int64_t result = 0;
-    if (__builtin_mul_overflow(static_cast<std::int64_t>(value.get_num().get_si()), Millimetres::picometres_per_mm / below.get_si(), &result)) return std::nullopt;
+    if (__builtin_mul_overflow(static_cast<std::int64_t>(value.get_num().get_si()),
+                               Millimetres::picometres_per_mm / below.get_si(), &result))
+        return std::nullopt;
     return result;
 }
 
@@ -52,11 +56,14 @@ Millimetres::operator Rational() const {
     return result;
 }
 
-std::strong_ordering Millimetres::compare(const Millimetres& a, const Millimetres& b) { return cmp(Rational(a), Rational(b)) <=> 0; }
+std::strong_ordering Millimetres::compare(const Millimetres& a, const Millimetres& b) {
+    return cmp(Rational(a), Rational(b)) <=> 0;
+}
 
 Millimetres half_plus(const Millimetres& a, const Millimetres& b) {
     std::int64_t sum = 0;
-    if (a.whole() && b.whole() && a.picometres() % 2 == 0 && !__builtin_add_overflow(a.picometres() / 2, b.picometres(), &sum))
+    if (a.whole() && b.whole() && a.picometres() % 2 == 0 &&
+        !__builtin_add_overflow(a.picometres() / 2, b.picometres(), &sum))
         return Millimetres::of_picometres(sum);
     return Rational(Rational(a) / 2 + Rational(b));
 }

@@ -9,15 +9,16 @@
 
 namespace ribvault {
 
-/// An exact rational number of millimetres. A multiple of a picometre (1e-9 mm) below 9e9 mm is held as an integer, any other rational
-/// as itself, shared between copies. Which of both it is follows from the value.
+/// An exact rational number of millimetres. A multiple of a picometre (1e-9 mm) below 9e9 mm is held as an integer, any
+/// other rational as itself, shared between copies. Which of both it is follows from the value.
 class Millimetres {
 public:
     Millimetres() = default;
     Millimetres(const Rational& value);  // NOLINT(google-explicit-constructor): every rational is one
     Millimetres(int value) : Millimetres(of_picometres(value * picometres_per_mm)) {}  // NOLINT
     template <class U>
-    Millimetres(const __gmp_expr<mpq_t, U>& expression) : Millimetres(Rational(expression)) {}  // NOLINT: what arithmetic on Rationals gives
+    Millimetres(const __gmp_expr<mpq_t, U>& expression)
+        : Millimetres(Rational(expression)) {}  // NOLINT: what arithmetic on Rationals gives
     static Millimetres of_picometres(std::int64_t value);
     static constexpr std::int64_t picometres_per_mm = 1000000000;
 

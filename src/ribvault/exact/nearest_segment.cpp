@@ -19,7 +19,8 @@ double lower_bound(Point p, const Box& box) {
 
 }  // namespace
 
-NearestSegment::NearestSegment(std::vector<Segment> segments) : segments_(std::move(segments)), order_(segments_.size()) {
+NearestSegment::NearestSegment(std::vector<Segment> segments)
+    : segments_(std::move(segments)), order_(segments_.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
     if (segments_.empty()) return;
     nodes_.reserve(segments_.size());

@@ -46,12 +46,13 @@ Side PointLocation::locate(Point p) const {
 }
 
 bool PointLocation::edge_meets(const Box& box) const {
-    if (empty() || box.lo.x > box_.hi.x || box.hi.x < box_.lo.x || box.lo.y > box_.hi.y || box.hi.y < box_.lo.y) return false;
+    if (empty() || box.lo.x > box_.hi.x || box.hi.x < box_.lo.x || box.lo.y > box_.hi.y || box.hi.y < box_.lo.y)
+        return false;
     const std::size_t lo = strip_of(std::max(box.lo.y, box_.lo.y)), hi = strip_of(std::min(box.hi.y, box_.hi.y));
     for (std::uint32_t k = starts_[lo]; k < starts_[hi + 1]; ++k) {
         const Segment& e = edges_[members_[k]];
-        if (std::max(e.a.x, e.b.x) < box.lo.x || std::min(e.a.x, e.b.x) > box.hi.x || std::max(e.a.y, e.b.y) < box.lo.y ||
-            std::min(e.a.y, e.b.y) > box.hi.y)
+        if (std::max(e.a.x, e.b.x) < box.lo.x || std::min(e.a.x, e.b.x) > box.hi.x ||
+            std::max(e.a.y, e.b.y) < box.lo.y || std::min(e.a.y, e.b.y) > box.hi.y)
             continue;
         const int s0 = orientation(e.a, e.b, box.lo), s1 = orientation(e.a, e.b, box.hi);
         const int s2 = orientation(e.a, e.b, {box.lo.x, box.hi.y}), s3 = orientation(e.a, e.b, {box.hi.x, box.lo.y});

@@ -20,7 +20,8 @@ mpz_class to_mpz(Int128 v) {
 }
 
 int compare_exact(const SquaredDistance& a, const SquaredDistance& b) {
-    return sgn(mpz_class(to_mpz(a.numerator) * mpz_class(b.denominator) - to_mpz(b.numerator) * mpz_class(a.denominator)));
+    return sgn(
+        mpz_class(to_mpz(a.numerator) * mpz_class(b.denominator) - to_mpz(b.numerator) * mpz_class(a.denominator)));
 }
 
 /// Sign of sqrt(a) - sqrt(b) - c over the rationals, by squaring with the signs kept track of.
@@ -61,7 +62,8 @@ int compare_distance(Point p, const Segment& s, Unit radius) {
 
 int compare_distance(const Segment& s, const Segment& t, Unit radius) {
     if (segments_touch(s, t)) return radius > 0 ? -1 : 0;
-    return std::min({compare_distance(s.a, t, radius), compare_distance(s.b, t, radius), compare_distance(t.a, s, radius), compare_distance(t.b, s, radius)});
+    return std::min({compare_distance(s.a, t, radius), compare_distance(s.b, t, radius),
+                     compare_distance(t.a, s, radius), compare_distance(t.b, s, radius)});
 }
 
 double distance(const Segment& s, const Segment& t) {
@@ -111,12 +113,14 @@ bool segments_cross(const Segment& s, const Segment& t) {
 
 Point nearest_point(Point p, const Segment& s) {
     const Point u = s.b - s.a, v = p - s.a;
-    const double along = static_cast<double>(u.x) * static_cast<double>(v.x) + static_cast<double>(u.y) * static_cast<double>(v.y);
+    const double along =
+        static_cast<double>(u.x) * static_cast<double>(v.x) + static_cast<double>(u.y) * static_cast<double>(v.y);
     const double l2 = static_cast<double>(squared_length(u));
     if (along <= 0 || l2 == 0) return s.a;
     if (along >= l2) return s.b;
     const double t = along / l2;
-    return {s.a.x + round_to_lattice(t * static_cast<double>(u.x)), s.a.y + round_to_lattice(t * static_cast<double>(u.y))};
+    return {s.a.x + round_to_lattice(t * static_cast<double>(u.x)),
+            s.a.y + round_to_lattice(t * static_cast<double>(u.y))};
 }
 
 }  // namespace ribvault

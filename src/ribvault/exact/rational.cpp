@@ -61,8 +61,9 @@ Rational parse_rational(std::string_view text, std::string_view what) {
 Unit parse_length(std::string_view text, std::string_view what) {
     const Rational units = parse_rational(text, what) * units_per_mm;
     if (units.get_den() != 1 || !units.get_num().fits_slong_p() || abs(units) > lattice_bound)
-        throw Error(ErrorKind::usage, std::string(what) + ": '" + std::string(text) +
-                                          "' mm does not lie on the 10 nm lattice; give at most five decimals and at most 10 m");
+        throw Error(ErrorKind::usage,
+                    std::string(what) + ": '" + std::string(text) +
+                        "' mm does not lie on the 10 nm lattice; give at most five decimals and at most 10 m");
     return units.get_num().get_si();
 }
 

@@ -17,21 +17,26 @@ std::string mm(double value) {
 }
 
 [[noreturn]] void refuse(double needed, double bed, const char* of, double reach) {
-    throw Error(ErrorKind::does_not_fit, "the print needs " + mm(needed) + " mm" + of + " and the bed has " + mm(bed) + " mm" +
-                                             (reach > 0 ? " (skirt and brim, and external supports, take " + mm(2 * reach) + " mm of it); make them smaller, or scale the model down with --scale"
-                                                        : std::string("; scale the model down with --scale")));
+    throw Error(ErrorKind::does_not_fit,
+                "the print needs " + mm(needed) + " mm" + of + " and the bed has " + mm(bed) + " mm" +
+                    (reach > 0 ? " (skirt and brim, and external supports, take " + mm(2 * reach) +
+                                     " mm of it); make them smaller, or scale the model down with --scale"
+                               : std::string("; scale the model down with --scale")));
 }
 
 }  // namespace
 
-Unit reach_of_supports(const Settings& settings) { return settings.outside() ? settings.support_gap + settings.pillar_length / 4 + 2 * settings.nozzle : 0; }
+Unit reach_of_supports(const Settings& settings) {
+    return settings.outside() ? settings.support_gap + settings.pillar_length / 4 + 2 * settings.nozzle : 0;
+}
 
 Box support_frame(const Mesh& mesh, const Placement& placement, const Settings& settings) {
     Box box;
     const double scale = placement.scale.get_d() * units_per_mm;
     for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) {
         const auto along = [&](std::size_t k) {
-            return round_to_lattice(scale * placement.sign[k] * mesh.vertices(placement.axis[k], v) + placement.offset[k].get_d() * units_per_mm);
+            return round_to_lattice(scale * placement.sign[k] * mesh.vertices(placement.axis[k], v) +
+                                    placement.offset[k].get_d() * units_per_mm);
         };
         box.add({along(0), along(1)});
     }
@@ -39,19 +44,24 @@ Box support_frame(const Mesh& mesh, const Placement& placement, const Settings& 
     return box;
 }
 
-void check_bed(const Mesh& mesh, const Placement& placement, const Settings& settings, const TrackSettings& tracks, const PrinterSettings& printer) {
+void check_bed(const Mesh& mesh, const Placement& placement, const Settings& settings, const TrackSettings& tracks,
+               const PrinterSettings& printer) {
     const double reach = to_mm(reach_of_skirt_and_brim(settings, tracks) + reach_of_supports(settings));
-    const double middle_x = printer.origin_at_centre ? 0 : printer.bed_x / 2, middle_y = printer.origin_at_centre ? 0 : printer.bed_y / 2;
+    const double middle_x = printer.origin_at_centre ? 0 : printer.bed_x / 2,
+                 middle_y = printer.origin_at_centre ? 0 : printer.bed_y / 2;
     const double scale = placement.scale.get_d();
     double x = 0, y = 0, radius = 0;
     for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) {
-        const auto along = [&](std::size_t k) { return scale * placement.sign[k] * mesh.vertices(placement.axis[k], v) + placement.offset[k].get_d(); };
+        const auto along = [&](std::size_t k) {
+            return scale * placement.sign[k] * mesh.vertices(placement.axis[k], v) + placement.offset[k].get_d();
+        };
         const double dx = std::fabs(along(0) - middle_x), dy = std::fabs(along(1) - middle_y);
         x = std::max(x, dx), y = std::max(y, dy), radius = std::max(radius, std::hypot(dx, dy));
     }
     constexpr double rounding = 1e-6;  // mm: coordinates here are rounded; nothing is proved by them
     if (printer.round_bed) {
-        if (2 * (radius + reach) > printer.bed_x + rounding) refuse(2 * (radius + reach), printer.bed_x, " in diameter", reach);
+        if (2 * (radius + reach) > printer.bed_x + rounding)
+            refuse(2 * (radius + reach), printer.bed_x, " in diameter", reach);
         return;
     }
     if (2 * (x + reach) > printer.bed_x + rounding) refuse(2 * (x + reach), printer.bed_x, " in x", reach);

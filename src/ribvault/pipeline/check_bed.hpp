@@ -12,8 +12,9 @@ Unit reach_of_supports(const Settings& settings);
 /// The placed mesh's box and what supports may reach beyond it.
 Box support_frame(const Mesh& mesh, const Placement& placement, const Settings& settings);
 
-/// Throws Error (does_not_fit) when the placed mesh, enlarged by skirt, brim and external supports, leaves the bed: a rectangle, or a disc of
-/// diameter bed_x when `printer.round_bed`. Heights are checked by place().
-void check_bed(const Mesh& mesh, const Placement& placement, const Settings& settings, const TrackSettings& tracks, const PrinterSettings& printer);
+/// Throws Error (does_not_fit) when the placed mesh, enlarged by skirt, brim and external supports, leaves the bed: a
+/// rectangle, or a disc of diameter bed_x when `printer.round_bed`. Heights are checked by place().
+void check_bed(const Mesh& mesh, const Placement& placement, const Settings& settings, const TrackSettings& tracks,
+               const PrinterSettings& printer);
 
 }  // namespace ribvault

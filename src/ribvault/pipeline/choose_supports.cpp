@@ -40,8 +40,8 @@ void while_there_is_room(std::optional<KeptSupports>& kept, const std::function<
 
 }  // namespace
 
-Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int threads, const std::function<bool()>& stop, const OutsideRoom* room,
-                                        const std::function<void(int, int)>& progress) {
+Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int threads, const std::function<bool()>& stop,
+                        const OutsideRoom* room, const std::function<void(int, int)>& progress) {
     namespace tbb = oneapi::tbb;
     std::vector<Sweep> sweeps;
     for (int k = 0; k < settings.tries; ++k)
@@ -57,23 +57,29 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
     LayerFront front(slicer, settings, nullptr, stop, room);
     Chosen chosen;
-    if (sweeps.size() <= most_kept) while_there_is_room(chosen.supports, [&] { chosen.supports.emplace(sweeps.size()); });
+    if (sweeps.size() <= most_kept)
+        while_there_is_room(chosen.supports, [&] { chosen.supports.emplace(sweeps.size()); });
     std::vector<std::string> finished(sweeps.size());
     int done = 0;
     const auto sweep = [&](TokenPtr token) {
         if (token->layer >= 0) {
             const bool keep = chosen.supports && done > 0;
-            tbb::parallel_for(std::size_t{0}, sweeps.size(), [&](std::size_t k) { finished[k] = step(sweeps[k], *token, keep); });
+            tbb::parallel_for(std::size_t{0}, sweeps.size(),
+                              [&](std::size_t k) { finished[k] = step(sweeps[k], *token, keep); });
             if (keep) while_there_is_room(chosen.supports, [&] { chosen.supports->add(finished); });
             progress(++done, slicer.layer_count());
         }
         front.remove(token);
     };
-    tbb::parallel_pipeline(front.window(limit), front.filter() & tbb::make_filter<TokenPtr, void>(tbb::filter_mode::serial_in_order, sweep));
+    tbb::parallel_pipeline(front.window(limit),
+                           front.filter() & tbb::make_filter<TokenPtr, void>(tbb::filter_mode::serial_in_order, sweep));
     if (stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
 
-    for (const Sweep& s : sweeps) chosen.candidates.push_back({s.settings.narrow_bonus, s.settings.seed, s.length / units_per_mm});
-    const auto least = std::min_element(chosen.candidates.begin(), chosen.candidates.end(), [](const Candidate& a, const Candidate& b) { return a.length_mm < b.length_mm; });
+    for (const Sweep& s : sweeps)
+        chosen.candidates.push_back({s.settings.narrow_bonus, s.settings.seed, s.length / units_per_mm});
+    const auto least =
+        std::min_element(chosen.candidates.begin(), chosen.candidates.end(),
+                         [](const Candidate& a, const Candidate& b) { return a.length_mm < b.length_mm; });
     chosen.sweep = static_cast<std::size_t>(least - chosen.candidates.begin());
     std::rotate(chosen.candidates.begin(), least, least + 1);
     if (chosen.supports)

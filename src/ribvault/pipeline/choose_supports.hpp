@@ -12,18 +12,20 @@
 namespace ribvault {
 
 struct Chosen {
-    std::vector<Candidate> candidates;      ///< the best first, the others in the order in which they were tried; empty where nothing is open
-    std::optional<KeptSupports> supports;   ///< what the sweeps made, unless they were too many or there was no place for it on disk
+    /// The best first, the others in the order in which they were tried; empty where nothing is open.
+    std::vector<Candidate> candidates;
+    /// What the sweeps made, unless they were too many or there was no place for it on disk.
+    std::optional<KeptSupports> supports;
     std::size_t sweep = 0;                  ///< the best one's place in `supports`
 };
 
-/// Sweeps all layers with every combination that `settings` leaves open (choose_bonus: the bonus halved in narrow places or not; tries: as many
-/// seeds from settings.seed on); the first with the least track is the best.
-/// Nothing is printed or proved meanwhile; slices and cavities are made once for all of them. At most a
-/// window of layers is alive at any time. The result does not depend on `threads`. `progress(done, layers)` as layers are done.
+/// Sweeps all layers with every combination that `settings` leaves open (choose_bonus: the bonus halved in narrow
+/// places or not; tries: as many seeds from settings.seed on); the first with the least track is the best. Nothing is
+/// printed or proved meanwhile; slices and cavities are made once for all of them. At most a window of layers is alive
+/// at any time. The result does not depend on `threads`. `progress(done, layers)` as layers are done.
 ///
 /// Throws as sweep_layers does. `room` as there.
-Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int threads, const std::function<bool()>& stop, const OutsideRoom* room,
-                                        const std::function<void(int, int)>& progress);
+Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int threads, const std::function<bool()>& stop,
+                        const OutsideRoom* room, const std::function<void(int, int)>& progress);
 
 }  // namespace ribvault

@@ -77,17 +77,23 @@ public:
         std::optional<OutsideRoom> room;
         if (job_.settings.outside()) {
             const auto from = Time::now();
-            room.emplace(slicer, support_frame(mesh_, report_.placement, job_.settings), job_.settings, job_.threads, job_.stop);
+            room.emplace(slicer, support_frame(mesh_, report_.placement, job_.settings), job_.settings, job_.threads,
+                         job_.stop);
             if (job_.settings.bed_only) times_["ways"] = seconds_since(from);
         }
         const OutsideRoom* outside = room ? &*room : nullptr;
         choose(slicer, outside);
 
-        const auto finish = [&](const SweptLayer& layer, const LayerMaterial* below) { return std::shared_ptr<void>(finish_layer(slicer, layer, below)); };
-        const auto collect = [&](const SweptLayer&, std::shared_ptr<void> output) { collect_layer(std::static_pointer_cast<LayerOutput>(output)); };
+        const auto finish = [&](const SweptLayer& layer, const LayerMaterial* below) {
+            return std::shared_ptr<void>(finish_layer(slicer, layer, below));
+        };
+        const auto collect = [&](const SweptLayer&, std::shared_ptr<void> output) {
+            collect_layer(std::static_pointer_cast<LayerOutput>(output));
+        };
         std::function<LayerSupports(std::size_t)> made;
         if (chosen_.supports) made = [&](std::size_t depth) { return chosen_.supports->at(chosen_.sweep, depth); };
-        times_.merge(sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop, outside, made));
+        times_.merge(
+            sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop, outside, made));
         times_.erase("finish");  // its parts are counted one by one
         while (!waiting_.empty()) join();
         times_["proof"] = 1e-9 * static_cast<double>(proof_), times_["paths"] = 1e-9 * static_cast<double>(paths_);
@@ -104,7 +110,8 @@ private:
         report_.input = examine(mesh_, report_.placement);
         if (report_.input.unbalanced_edges == 0) return;
         if (const std::size_t turned = orient_consistently(mesh_); turned > 0) {
-            job_.warn(job_.model.string() + ": " + std::to_string(turned) + " triangles faced the wrong way and were turned over");
+            job_.warn(job_.model.string() + ": " + std::to_string(turned) +
+                      " triangles faced the wrong way and were turned over");
             report_.input = examine(mesh_, report_.placement);
         }
     }
@@ -112,7 +119,8 @@ private:
     void check_layers(const Slicer& slicer) {
         if (slicer.layer_count() == 0)
             throw Error(ErrorKind::does_not_fit, job_.model.string() + ": no layer meets the model, which is " +
-                                                     std::to_string(report_.input.size_mm[2]) + " mm high; scale it up or use thinner layers");
+                                                     std::to_string(report_.input.size_mm[2]) +
+                                                     " mm high; scale it up or use thinner layers");
         if (report_.input.closed()) return;
         job_.warn(job_.model.string() + ": the mesh is not closed (" + std::to_string(report_.input.boundary_edges) +
                   " boundary edges); its slices are closed over gaps up to --max-gap");
@@ -125,7 +133,8 @@ private:
         chosen_ = sweep_candidates(slicer, job_.settings, job_.threads, job_.stop, room, job_.choosing);
         report_.candidates = chosen_.candidates;
         if (!report_.candidates.empty()) {
-            job_.settings.narrow_bonus = report_.candidates.front().narrow_bonus, job_.settings.seed = report_.candidates.front().seed;
+            job_.settings.narrow_bonus = report_.candidates.front().narrow_bonus,
+            job_.settings.seed = report_.candidates.front().seed;
             times_["choose"] = seconds_since(from);
         }
         report_.settings = job_.settings;
@@ -147,13 +156,15 @@ private:
             std::error_code error;
             std::filesystem::create_directories(*job_.svg, error);
             if (error)
-                throw Error(ErrorKind::cannot_write, job_.svg->string() + ": cannot make this folder (" + error.message() + "); choose another with --svg");
+                throw Error(ErrorKind::cannot_write, job_.svg->string() + ": cannot make this folder (" +
+                                                         error.message() + "); choose another with --svg");
         }
         total_ = layers;
         job_.progress(0, total_);
     }
 
-    std::shared_ptr<LayerOutput> finish_layer(const Slicer& slicer, const SweptLayer& swept, const LayerMaterial* below) {
+    std::shared_ptr<LayerOutput> finish_layer(const Slicer& slicer, const SweptLayer& swept,
+                                              const LayerMaterial* below) {
         const Settings& s = job_.settings;
         const LayerMaterial& layer = swept.material;
         auto output = std::make_shared<LayerOutput>();
@@ -165,8 +176,11 @@ private:
         if (below) r.verdict = prove_layer(layer, *below, s);
         if (s.stands_off()) check_gap(swept, r);
         PrintVerdict print_over_gap;
-        for (const PrintPart& part : swept.held.parts) add_verdict(part.judgement.verdict(), part.over_gap ? print_over_gap : output->print_above);
-        for (const OverGap& over : swept.over_gap) output->over_gap.push_back({over.upper.layer, prove_over_gap(over, layer, s), over.over_bed ? PrintVerdict() : print_over_gap});
+        for (const PrintPart& part : swept.held.parts)
+            add_verdict(part.judgement.verdict(), part.over_gap ? print_over_gap : output->print_above);
+        for (const OverGap& over : swept.over_gap)
+            output->over_gap.push_back(
+                {over.upper.layer, prove_over_gap(over, layer, s), over.over_bed ? PrintVerdict() : print_over_gap});
         proof_ += (Time::now() - from).count();
 
         from = Time::now();
@@ -174,7 +188,10 @@ private:
         Region air = layer.cavity->region;
         if (layer.outside) air.insert(air.end(), layer.outside->region.begin(), layer.outside->region.end());
         output->map = TravelMap(layer.slice->rounded, air, paths);
-        const std::vector<ToolPath> beside = layer.layer == 0 ? skirt_and_brim(layer.slice->rounded, s, job_.tracks, s.outside() ? *layer.tracks : std::vector<Segment>()) : std::vector<ToolPath>();
+        const std::vector<ToolPath> beside = layer.layer == 0
+                                                 ? skirt_and_brim(layer.slice->rounded, s, job_.tracks,
+                                                                  s.outside() ? *layer.tracks : std::vector<Segment>())
+                                                 : std::vector<ToolPath>();
         output->text = gcode_layer(paths, output->map, s, job_.printer, beside);
         for (const std::vector<ToolPath>* all : {&beside, &paths.paths})
             for (const ToolPath& path : *all)
@@ -224,10 +241,12 @@ private:
         }
         if (job_.mesh) {
             const Unit top = top_of_layer(layer.layer, s);
-            append_walls(swept.forest, top - (layer.layer == 0 ? s.first_layer_height : s.layer_height), top, s, output->walls);
+            append_walls(swept.forest, top - (layer.layer == 0 ? s.first_layer_height : s.layer_height), top, s,
+                         output->walls);
         }
         if (job_.layers || job_.html) {
-            const LayerShapes shapes = shapes_of(*layer.slice, layer.cavity->region, swept.forest, swept.unsupported, swept.held.patch_tracks);
+            const LayerShapes shapes =
+                shapes_of(*layer.slice, layer.cavity->region, swept.forest, swept.unsupported, swept.held.patch_tracks);
             if (job_.layers) output->shapes = shapes_json(shapes);
             if (job_.html) output->packed = packed_shapes(shapes);
         }
@@ -235,22 +254,26 @@ private:
         return output;
     }
 
-    /// What is extruded outside keeps g off the object on this layer and on those of the gap above it, or the layer is not proved. Where it does not keep g off
-    /// patches of the object, the report says so.
+    /// What is extruded outside keeps g off the object on this layer and on those of the gap above it, or the layer is
+    /// not proved. Where it does not keep g off patches of the object, the report says so.
     void check_gap(const SweptLayer& layer, LayerReport& report) const {
         const Settings& s = job_.settings;
         const std::vector<Segment> outside = segments_of(layer.held.plan, TrackKind::external_support);
-        std::optional<Segment> near = find_too_near(*layer.material.slice->exact, outside, s.support_gap + s.nozzle / 2);
+        std::optional<Segment> near =
+            find_too_near(*layer.material.slice->exact, outside, s.support_gap + s.nozzle / 2);
         for (const auto& above : layer.material.slices_above)
             if (!near) near = find_too_near(*above->exact, outside, s.support_gap + s.nozzle / 2);
-        report.patch_in_gap = std::any_of(layer.patches.begin(), layer.patches.end(),
-                                          [&](const auto& patches) { return find_too_near(*patches, outside, s.support_gap + s.nozzle).has_value(); });
+        report.patch_in_gap = std::any_of(layer.patches.begin(), layer.patches.end(), [&](const auto& patches) {
+            return find_too_near(*patches, outside, s.support_gap + s.nozzle).has_value();
+        });
         if (!near) return;
         report.verdict.supported = false;
-        report.verdict.malformed = "the external support at (" + std::to_string(to_mm(near->a.x)) + ", " + std::to_string(to_mm(near->a.y)) + ") mm is nearer to the object than the gap";
+        report.verdict.malformed = "the external support at (" + std::to_string(to_mm(near->a.x)) + ", " +
+                                   std::to_string(to_mm(near->a.y)) + ") mm is nearer to the object than the gap";
     }
 
-    /// Layers come from the top. Each waits for the one below it, to which it is joined then, and for that whose external supports hold it up.
+    /// Layers come from the top. Each waits for the one below it, to which it is joined then, and for that whose
+    /// external supports hold it up.
     void collect_layer(std::shared_ptr<LayerOutput> next) {
         LayerOutput& output = *next;
         if (waiting_.empty())
@@ -259,7 +282,8 @@ private:
             waiting_.back()->report.print = output.print_above;
         for (const LayerOutput::OverGap& over : output.over_gap)
             for (const auto& layer : waiting_)
-                if (layer->report.layer == over.layer) add_verdict(over.verdict, layer->report.verdict), add_verdict(over.print, layer->report.print);
+                if (layer->report.layer == over.layer)
+                    add_verdict(over.verdict, layer->report.verdict), add_verdict(over.print, layer->report.print);
         if (output.picture) svgs_.push_back(std::move(*output.picture));
         if (walls_) {
             facets_ += static_cast<std::uint32_t>(output.walls.size() / 50);
@@ -287,7 +311,8 @@ private:
         LayerReport& r = output.report;
         r.travels = p.travels, r.travel_mm = p.travel, r.open_air_mm = p.open_air;
         r.retractions = p.retractions, r.detours = p.detours;
-        r.prime_surplus_mm3 = p.prime_surplus * std::numbers::pi / 4 * job_.printer.filament_diameter * job_.printer.filament_diameter;
+        r.prime_surplus_mm3 =
+            p.prime_surplus * std::numbers::pi / 4 * job_.printer.filament_diameter * job_.printer.filament_diameter;
         r.print_seconds = p.seconds;
         shapes_.add(r, output.shapes, output.packed);
         report_.layers.push_back(std::move(output.report));
@@ -301,7 +326,8 @@ private:
             triangles.emplace_back();
             for (Eigen::Index c = 0; c < 3; ++c)
                 for (std::size_t k = 0; k < 3; ++k)
-                    triangles.back()[static_cast<std::size_t>(c)][k] = placed.sign[k] * mesh_.vertices(placed.axis[k], mesh_.triangles(c, t));
+                    triangles.back()[static_cast<std::size_t>(c)][k] =
+                        placed.sign[k] * mesh_.vertices(placed.axis[k], mesh_.triangles(c, t));
         }
         std::string text;
         for (const auto& [width, height] : thumbnail_sizes(job_.printer.thumbnails))
@@ -312,10 +338,12 @@ private:
     void write_outputs() {
         sum_up(report_);
         if (report_.totals.shell_volume_mm3 <= 0)
-            throw Error(ErrorKind::bad_geometry, job_.model.string() + ": the mesh encloses no volume; is it a surface without thickness?");
+            throw Error(ErrorKind::bad_geometry,
+                        job_.model.string() + ": the mesh encloses no volume; is it a surface without thickness?");
         const auto from = Time::now();
         if (gcode_) {
-            const PrintFacts facts{total_, report_.totals.print_seconds, report_.totals.filament_mm, box_, to_mm(top_of_layer(total_ - 1, job_.settings))};
+            const PrintFacts facts{total_, report_.totals.print_seconds, report_.totals.filament_mm, box_,
+                                   to_mm(top_of_layer(total_ - 1, job_.settings))};
             gcode_->write(gcode_header(job_.settings, job_.tracks, job_.printer, facts, thumbnails()));
             spool_->replay_backwards([&](std::string_view text) { gcode_->write(text); });
             gcode_->write(end_of_layers_);
@@ -331,7 +359,8 @@ private:
         }
         shapes_.write(report_);
         times_["write"] = seconds_since(from);
-        report_.machine.threads = job_.threads > 0 ? job_.threads : static_cast<int>(std::thread::hardware_concurrency());
+        report_.machine.threads =
+            job_.threads > 0 ? job_.threads : static_cast<int>(std::thread::hardware_concurrency());
         report_.machine.stage_seconds = times_;
         report_.machine.seconds = seconds_since(start_);
         report_.machine.peak_memory_mb = peak_memory_mb();

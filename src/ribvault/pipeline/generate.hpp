@@ -21,14 +21,15 @@ struct Job {
     PrinterSettings printer;
     int threads = 0;  ///< 0: all processors
     std::function<void(int done, int total)> progress = [](int, int) {};
-    std::function<void(int done, int total)> choosing = [](int, int) {};  ///< the same for the sweeps before the run (Settings::choose_bonus, tries)
+    std::function<void(int done, int total)> choosing = [](int, int) {
+    };  ///< the same for the sweeps before the run (Settings::choose_bonus, tries)
     std::function<void(const std::string&)> warn = [](const std::string&) {};
     std::function<bool()> stop = [] { return false; };
 };
 
-/// Reads, slices, hollows, sweeps, proves, and writes what the job names. Files appear under their names only when all of
-/// the run succeeded; a print that could not be proved is written all the same (RunReport::verdict says so).
-/// Throws Error as its parts do; then no file was written.
+/// Reads, slices, hollows, sweeps, proves, and writes what the job names. Files appear under their names only when all
+/// of the run succeeded; a print that could not be proved is written all the same (RunReport::verdict says so). Throws
+/// Error as its parts do; then no file was written.
 RunReport generate(const Job& job);
 
 /// The report in a few lines for people.

@@ -15,7 +15,8 @@
 namespace ribvault {
 namespace {
 
-constexpr int distance_cells = 20000;  // effort of a region's greatest distance: more than it takes for bounds within 1e-3
+constexpr int distance_cells =
+    20000;  // effort of a region's greatest distance: more than it takes for bounds within 1e-3
 
 template <class Point>
 std::array<double, 2> place(const Point& p) { return {p[0].get_d(), p[1].get_d()}; }
@@ -40,10 +41,12 @@ HangingPiece describe(const UnsupportedPiece& p, const PrintedLayer& upper) {
     return piece;
 }
 
-HangingRegion describe(const UnsupportedRegion& r, const PrintedLayer& upper, const PrintedLayer& lower, double min_area) {
+HangingRegion describe(const UnsupportedRegion& r, const PrintedLayer& upper, const PrintedLayer& lower,
+                       double min_area) {
     HangingRegion region;
     region.boundary = r.boundary;
-    for (const BoundaryCurve& c : r.boundary.curves) region.curve_lines.push_back((c.above ? upper : lower).tracks[c.track].line);
+    for (const BoundaryCurve& c : r.boundary.curves)
+        region.curve_lines.push_back((c.above ? upper : lower).tracks[c.track].line);
     region.area_mm2 = {r.area_lo, r.area_hi};
     region.distance_mm = {r.distance_lo, r.distance_hi};
     region.witness = place(r.witness);
@@ -60,8 +63,8 @@ HangingRegion describe(const UnsupportedRegion& r, const PrintedLayer& upper, co
 }
 
 /// Takes the bridges out of `upper` and enters them.
-PrintedLayer without_bridges(const GcodeLayer& layer, PrintedLayer upper, const PrintedLayer& lower, const std::vector<char>& judged,
-                             const LayerRules& rules, JudgedLayer& result) {
+PrintedLayer without_bridges(const GcodeLayer& layer, PrintedLayer upper, const PrintedLayer& lower,
+                             const std::vector<char>& judged, const LayerRules& rules, JudgedLayer& result) {
     PrintedOptions lines_only;
     lines_only.judged = judged;
     lines_only.areas = lines_only.regions = false;
@@ -94,7 +97,8 @@ void add_verdict(PrintedVerdict more, PrintedVerdict& verdict) {
     for (std::size_t k = 0; k < more.unsupported_length.size(); ++k)
         for (const std::size_t end : {0, 1}) verdict.unsupported_length[k][end] += more.unsupported_length[k][end];
     std::move(more.pieces.begin(), more.pieces.end(), std::back_inserter(verdict.pieces));
-    std::stable_sort(verdict.pieces.begin(), verdict.pieces.end(), [](const UnsupportedPiece& a, const UnsupportedPiece& b) { return a.track < b.track; });
+    std::stable_sort(verdict.pieces.begin(), verdict.pieces.end(),
+                     [](const UnsupportedPiece& a, const UnsupportedPiece& b) { return a.track < b.track; });
     std::move(more.regions.begin(), more.regions.end(), std::back_inserter(verdict.regions));
     verdict.stages += more.stages;
 }
@@ -108,7 +112,8 @@ GroupVerdict located(PrintedVerdict verdict) {
     return {std::move(verdict), unlocated};
 }
 
-/// The entries under this one and under its gap, each once; nothing where the gap reaches down to the bed. Layers on which nothing is printed count.
+/// The entries under this one and under its gap, each once; nothing where the gap reaches down to the bed. Layers on
+/// which nothing is printed count.
 std::optional<std::vector<std::size_t>> entries_below(const GcodePrint& print, std::size_t entry, int gap) {
     std::map<std::size_t, int, std::greater<>> layers_down{{entry, 0}};
     for (auto at = layers_down.begin(); at != layers_down.end(); ++at) {
@@ -127,17 +132,21 @@ std::optional<std::vector<std::size_t>> entries_below(const GcodePrint& print, s
     return std::vector<std::size_t>(entries.rbegin(), entries.rend());
 }
 
-/// All of `upper` over `lower`, the material directly below, or where the rules tell supports from the object, each over what may hold it up: all of
-/// that is `lower` then.
-GroupVerdict judge_groups(const GcodePrint& print, std::size_t entry, const PrintedLayer& upper, PrintedLayer& lower, const std::vector<char>& judged,
-                            const LayerRules& rules) {
+/// All of `upper` over `lower`, the material directly below, or where the rules tell supports from the object, each
+/// over what may hold it up: all of that is `lower` then.
+GroupVerdict judge_groups(const GcodePrint& print, std::size_t entry, const PrintedLayer& upper, PrintedLayer& lower,
+                          const std::vector<char>& judged, const LayerRules& rules) {
     PrintedOptions options;
     options.judged = judged, options.distance_cells = distance_cells;
-    if (rules.object_reach == 0 && rules.gap_layers == 0 && !rules.supports_alone) return located(verify_printed(upper, lower, rules.support_radius, options));
-    const auto is_support = [&](const PrintedTrack& t) { return print.features[static_cast<std::size_t>(t.feature)].kind == FeatureKind::support; };
+    if (rules.object_reach == 0 && rules.gap_layers == 0 && !rules.supports_alone)
+        return located(verify_printed(upper, lower, rules.support_radius, options));
+    const auto is_support = [&](const PrintedTrack& t) {
+        return print.features[static_cast<std::size_t>(t.feature)].kind == FeatureKind::support;
+    };
     const auto group = [&](bool supports) {
         std::vector<char> chosen = judged;
-        for (std::size_t k = 0; k < chosen.size(); ++k) chosen[k] = chosen[k] != 0 && is_support(upper.tracks[k]) == supports ? 1 : 0;
+        for (std::size_t k = 0; k < chosen.size(); ++k)
+            chosen[k] = chosen[k] != 0 && is_support(upper.tracks[k]) == supports ? 1 : 0;
         return chosen;
     };
     const auto widen = [&](PrintedLayer& layer) {

@@ -15,7 +15,7 @@ struct LayerRules {
     double min_area = 0;                     ///< mm²
     std::vector<char> judged;                ///< per feature
     bool inside = false;                     ///< only what lies inside the outline below (verify/outside_outline.hpp)
-    Rational object_reach = 0;               ///< mm: the object's tracks below count as so much wider to every side (removal gap)
+    Rational object_reach = 0;  ///< mm: the object's tracks below count as so much wider to every side (removal gap)
     int gap_layers = 0;                      ///< the object may lie on material that is so many layers farther down
     bool supports_alone = false;             ///< supports must lie on supports
 };
@@ -32,10 +32,11 @@ struct JudgedLayer {
     std::vector<FeatureShare> features;  ///< one a feature of the print
 };
 
-/// Supports are the features of that kind, the object is all others. They are judged apart where the rules tell them apart, each over all that may hold it up.
+/// Supports are the features of that kind, the object is all others. They are judged apart where the rules tell them
+/// apart, each over all that may hold it up.
 ///
-/// Where bridges are allowed, equation (1) is decided first; what of its violations are bridges (verify/bridges.hpp) is taken
-/// out of the layer with one track width at both ends, and both equations are decided for the rest.
+/// Where bridges are allowed, equation (1) is decided first; what of its violations are bridges (verify/bridges.hpp) is
+/// taken out of the layer with one track width at both ends, and both equations are decided for the rest.
 JudgedLayer judge_layer(const GcodePrint& print, std::size_t entry, const LayerRules& rules);
 
 }  // namespace ribvault

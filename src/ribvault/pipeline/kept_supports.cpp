@@ -17,7 +17,8 @@ std::string packed_supports(const LayerSupports& supports) {
     std::vector<PackedEdge> walls;
     const SupportForest& forest = supports.forest;
     for (auto [v, end] = vertices(forest); v != end; ++v) all.push_back(forest[*v]);
-    for (auto [e, end] = edges(forest); e != end; ++e) walls.push_back({source(*e, forest), target(*e, forest), forest[*e]});
+    for (auto [e, end] = edges(forest); e != end; ++e)
+        walls.push_back({source(*e, forest), target(*e, forest), forest[*e]});
     std::string bytes;
     pack(bytes, all);
     pack(bytes, walls);

@@ -19,14 +19,17 @@ public:
     /// Throws Error (cannot_write) when there is no place for a temporary file.
     explicit KeptSupports(std::size_t sweeps) : sweeps_(sweeps) {}
 
-    /// S_i of every sweep, packed_supports, in the same order each time, once S_{i-1} is known: until then the branches that end on layer i are not marked.
+    /// S_i of every sweep, packed_supports, in the same order each time, once S_{i-1} is known: until then the branches
+    /// that end on layer i are not marked.
     void add(const std::vector<std::string>& supports) {
         for (const std::string& bytes : supports) spool_.add(bytes);
     }
     /// After the last layer. Throws Error (cannot_write) when the disk is full.
     void finish() { spool_.finish(); }
     /// `depth`: so many layers were added before it. May be called from several threads at once.
-    LayerSupports at(std::size_t sweep, std::size_t depth) const { return unpacked_supports(spool_.at(depth * sweeps_ + sweep)); }
+    LayerSupports at(std::size_t sweep, std::size_t depth) const {
+        return unpacked_supports(spool_.at(depth * sweeps_ + sweep));
+    }
 
 private:
     std::size_t sweeps_;

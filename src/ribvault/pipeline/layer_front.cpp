@@ -10,8 +10,10 @@
 namespace ribvault {
 namespace {
 
-/// Adds the supports outside to those in the cavity. Both grow from all of `above`: what stood in a cavity may stand outside below.
-void add_outside(LayerSupports& supports, SupportForest& above, const Cavity& outside, const Region& overhang, const Settings& settings) {
+/// Adds the supports outside to those in the cavity. Both grow from all of `above`: what stood in a cavity may stand
+/// outside below.
+void add_outside(LayerSupports& supports, SupportForest& above, const Cavity& outside, const Region& overhang,
+                 const Settings& settings) {
     std::vector<char> ends;
     for (auto [e, end] = edges(above); e != end; ++e) ends.push_back(above[*e].first_layer);
     const LayerSupports more = next_layer(above, outside, overhang, settings);
@@ -44,18 +46,28 @@ void enter_tracks(const SupportForest& forest, LayerMaterial& material) {
     material.external = std::make_shared<const std::vector<Segment>>(std::move(external));
 }
 
-LayerFront::LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks, const std::function<bool()>& stop, const OutsideRoom* room,
-                       bool overhangs)
-    : slicer_(slicer), settings_(settings), tracks_(tracks), stop_(stop), room_(room), overhangs_wanted_(overhangs), layers_(slicer.layer_count()),
-      last_(-settings.bottom_layers - 1 - static_cast<int>(delay())), next_(layers_ - 1), window_top_(layers_ - 1) {}
+LayerFront::LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks,
+                       const std::function<bool()>& stop, const OutsideRoom* room, bool overhangs)
+    : slicer_(slicer),
+      settings_(settings),
+      tracks_(tracks),
+      stop_(stop),
+      room_(room),
+      overhangs_wanted_(overhangs),
+      layers_(slicer.layer_count()),
+      last_(-settings.bottom_layers - 1 - static_cast<int>(delay())),
+      next_(layers_ - 1),
+      window_top_(layers_ - 1) {}
 
 oneapi::tbb::filter<void, TokenPtr> LayerFront::filter() {
     namespace tbb = oneapi::tbb;
     using tbb::filter_mode;
     const auto step = [this](filter_mode mode, void (LayerFront::*work)(Token&)) {
-        return tbb::make_filter<TokenPtr, TokenPtr>(mode, [this, work](TokenPtr token) { return (this->*work)(*token), token; });
+        return tbb::make_filter<TokenPtr, TokenPtr>(
+            mode, [this, work](TokenPtr token) { return (this->*work)(*token), token; });
     };
-    return tbb::make_filter<void, TokenPtr>(filter_mode::serial_in_order, [this](tbb::flow_control& flow) { return produce(flow); }) &
+    return tbb::make_filter<void, TokenPtr>(filter_mode::serial_in_order,
+                                            [this](tbb::flow_control& flow) { return produce(flow); }) &
            step(filter_mode::parallel, &LayerFront::slice) & step(filter_mode::serial_in_order, &LayerFront::gather) &
            step(filter_mode::parallel, &LayerFront::hollow) & step(filter_mode::serial_in_order, &LayerFront::pair) &
            step(filter_mode::parallel, &LayerFront::hang) & step(filter_mode::serial_in_order, &LayerFront::delay);
@@ -78,8 +90,11 @@ TokenPtr LayerFront::produce(oneapi::tbb::flow_control& flow) {
 
 void LayerFront::slice(Token& token) {
     if (token.slice_index < 0) return;
-    slicing_.measure([&] { token.own.slice = std::make_shared<const Slice>(slicer_.slice(token.slice_index, &token.own.closings)); });
-    eroding_.measure([&] { token.own.region = std::make_shared<const Region>(erode_slice(*token.own.slice, settings_)); });
+    slicing_.measure([&] {
+        token.own.slice = std::make_shared<const Slice>(slicer_.slice(token.slice_index, &token.own.closings));
+    });
+    eroding_.measure(
+        [&] { token.own.region = std::make_shared<const Region>(erode_slice(*token.own.slice, settings_)); });
 }
 
 void LayerFront::gather(Token& token) {
@@ -97,7 +112,8 @@ void LayerFront::gather(Token& token) {
     token.material.layer = layer;
     token.material.slice = own.slice;
     token.material.closings = std::move(own.closings);
-    for (int j = layer + 1; j <= std::min(layer + settings_.support_gap_layers, layers_ - 1); ++j) token.material.slices_above.push_back(at(j).slice);
+    for (int j = layer + 1; j <= std::min(layer + settings_.support_gap_layers, layers_ - 1); ++j)
+        token.material.slices_above.push_back(at(j).slice);
 }
 
 void LayerFront::hollow(Token& token) {
@@ -109,7 +125,9 @@ void LayerFront::hollow(Token& token) {
             for (std::size_t k = 1; k < token.eroded.size(); ++k) region = intersect(region, *token.eroded[k]);
         }
         token.material.cavity = std::make_shared<const Cavity>(make_cavity(token.layer, std::move(region), settings_));
-        if (settings_.outside()) token.material.outside = std::make_shared<const Cavity>(room_->of(token.material.slice, token.material.slices_above));
+        if (settings_.outside())
+            token.material.outside =
+                std::make_shared<const Cavity>(room_->of(token.material.slice, token.material.slices_above));
     });
 }
 
@@ -126,14 +144,17 @@ void LayerFront::hang(Token& token) {
         planning_.measure([&] {
             token.material.shell = std::make_shared<LayerPlan>();
             token.material.shell->layer = token.layer;
-            append_shell_paths(*token.material.slice, token.material.cavity->region, settings_, *tracks_, *token.material.shell);
+            append_shell_paths(*token.material.slice, token.material.cavity->region, settings_, *tracks_,
+                               *token.material.shell);
         });
     if (!token.above.slice || !overhangs_wanted_) return;
     overhangs_.measure([&] {
-        token.overhang = overhang_over_cavity(*token.material.cavity, *token.above.slice, *token.above.cavity, settings_);
+        token.overhang =
+            overhang_over_cavity(*token.material.cavity, *token.above.slice, *token.above.cavity, settings_);
         if (settings_.outside())
-            token.overhang_outside = overhang_outside(*token.material.outside, *token.above.outside, *token.above.cavity, settings_,
-                                                      token.material.slice.get(), token.above.slice.get());
+            token.overhang_outside =
+                overhang_outside(*token.material.outside, *token.above.outside, *token.above.cavity, settings_,
+                                 token.material.slice.get(), token.above.slice.get());
     });
 }
 

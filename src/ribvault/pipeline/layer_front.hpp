@@ -1,5 +1,5 @@
-// The part of the pipeline before the sweep: slices, cavities and what hangs over them, layer by layer from the top. What it knows of a layer
-// does not depend on any support.
+// The part of the pipeline before the sweep: slices, cavities and what hangs over them, layer by layer from the top.
+// What it knows of a layer does not depend on any support.
 #pragma once
 
 #include <oneapi/tbb/parallel_pipeline.h>
@@ -42,8 +42,8 @@ struct Eroded {
     std::vector<GapClosing> closings;
 };
 
-/// What travels through the pipeline. Token `slice_index` brings in one slice and, with the covers' delay, sends one layer
-/// on.
+/// What travels through the pipeline. Token `slice_index` brings in one slice and, with the covers' delay, sends one
+/// layer on.
 struct Token {
     int slice_index = 0;
     Eroded own;
@@ -84,17 +84,21 @@ void enter_tracks(const SupportForest& forest, LayerMaterial& material);
 /// Makes tokens of layers, from the top. One use: filter() is the head of one pipeline.
 class LayerFront {
 public:
-    /// Without `tracks` no shell is planned, without `overhangs` it is not looked what hangs. All arguments must outlive the pipeline.
-    LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks, const std::function<bool()>& stop, const OutsideRoom* room,
-               bool overhangs = true);
+    /// Without `tracks` no shell is planned, without `overhangs` it is not looked what hangs. All arguments must
+    /// outlive the pipeline.
+    LayerFront(const Slicer& slicer, const Settings& settings, const TrackSettings* tracks,
+               const std::function<bool()>& stop, const OutsideRoom* room, bool overhangs = true);
 
     oneapi::tbb::filter<void, TokenPtr> filter();
     /// A token that has been through the whole pipeline, in the order in which they left.
     void remove(TokenPtr) { tokens_.remove_first(); }
-    /// So many more tokens come after the last layer than push that through: layers may wait in the pipeline for the gap of layers below them.
+    /// So many more tokens come after the last layer than push that through: layers may wait in the pipeline for the
+    /// gap of layers below them.
     std::size_t delay() const { return static_cast<std::size_t>(std::max(0, settings_.support_gap_layers - 1)); }
     /// How many tokens a pipeline of so many threads needs.
-    std::size_t window(std::size_t threads) const { return 4 * threads + static_cast<std::size_t>(settings_.top_layers + settings_.bottom_layers); }
+    std::size_t window(std::size_t threads) const {
+        return 4 * threads + static_cast<std::size_t>(settings_.top_layers + settings_.bottom_layers);
+    }
     StageTimes seconds() const;
 
 private:
@@ -118,7 +122,8 @@ private:
     std::deque<Eroded> window_;  ///< slices window_top_, window_top_ - 1, ...
     int window_top_;
     LayerMaterial above_;
-    std::deque<Region> over_gap_;  ///< what hangs outside, for the layer that holds it up through settings.support_gap_layers empty ones
+    std::deque<Region> over_gap_;  ///< what hangs outside, for the layer that holds it up through
+                                   ///< settings.support_gap_layers empty ones
     Clock slicing_, eroding_, cavities_, overhangs_, planning_;
 };
 

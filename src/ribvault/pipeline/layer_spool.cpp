@@ -11,12 +11,13 @@ namespace ribvault {
 namespace {
 
 [[noreturn]] void fail(int reason) {
-    throw Error(ErrorKind::cannot_write, std::string("the temporary file for the layers cannot be written (") + std::strerror(reason) +
-                                             "); free space in the temporary folder");
+    throw Error(ErrorKind::cannot_write, std::string("the temporary file for the layers cannot be written (") +
+                                             std::strerror(reason) + "); free space in the temporary folder");
 }
 
 [[noreturn]] void fail_to_read(int reason) {
-    throw Error(ErrorKind::cannot_write, std::string("the temporary file for the layers cannot be read back (") + std::strerror(reason) + "); run it again");
+    throw Error(ErrorKind::cannot_write, std::string("the temporary file for the layers cannot be read back (") +
+                                             std::strerror(reason) + "); run it again");
 }
 
 }  // namespace
@@ -38,7 +39,8 @@ std::string LayerSpool::at(std::size_t k) const {
     const std::uint64_t begin = k == 0 ? 0 : ends_[k - 1];
     std::string text(ends_[k] - begin, '\0');
     for (std::size_t read = 0; read < text.size();) {
-        const ssize_t got = pread(fileno(file_.get()), text.data() + read, text.size() - read, static_cast<off_t>(begin + read));
+        const ssize_t got =
+            pread(fileno(file_.get()), text.data() + read, text.size() - read, static_cast<off_t>(begin + read));
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0) fail_to_read(got < 0 ? errno : EIO);
         read += static_cast<std::size_t>(got);

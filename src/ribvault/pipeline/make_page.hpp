@@ -9,14 +9,15 @@
 namespace ribvault {
 
 struct PageJob {
-    std::vector<std::filesystem::path> runs;  ///< one or two: layers files of `ribvault generate`, or G-code of any slicer
+    /// One or two: layers files of `ribvault generate`, or G-code of any slicer.
+    std::vector<std::filesystem::path> runs;
     std::filesystem::path page;               ///< what to write
-    VerifyJob rules;                          ///< how G-code is judged, threads, progress, warn, stop; its files are not looked at
+    VerifyJob rules;  ///< how G-code is judged, threads, progress, warn, stop; its files are not looked at
 };
 
-/// Writes the page, complete or not at all. Layers files carry their verdicts; memory does not depend on the number of their layers.
-/// Throws Error: unreadable (a file; LayersFile and read_gcode say what is wrong with it), usage (not one or two runs, rules that
-/// cannot be), cannot_write, interrupted.
+/// Writes the page, complete or not at all. Layers files carry their verdicts; memory does not depend on the number of
+/// their layers. Throws Error: unreadable (a file; LayersFile and read_gcode say what is wrong with it), usage (not one
+/// or two runs, rules that cannot be), cannot_write, interrupted.
 void make_page(const PageJob& job);
 
 }  // namespace ribvault

@@ -22,18 +22,21 @@ Region simplified(const Region& region, double distance) {
 
 }  // namespace
 
-OutsideRoom::OutsideRoom(const Slicer& slicer, const Box& frame, const Settings& settings, int threads, const std::function<bool()>& stop)
+OutsideRoom::OutsideRoom(const Slicer& slicer, const Box& frame, const Settings& settings, int threads,
+                         const std::function<bool()>& stop)
     : frame_(frame), settings_(settings) {
     if (settings.bed_only) find_ways_to_bed(slicer, threads, stop);
 }
 
-Region OutsideRoom::off(const std::shared_ptr<const Slice>& slice, const std::vector<std::shared_ptr<const Slice>>& above) const {
+Region OutsideRoom::off(const std::shared_ptr<const Slice>& slice,
+                        const std::vector<std::shared_ptr<const Slice>>& above) const {
     std::vector<std::shared_ptr<const Slice>> slices{slice};
     slices.insert(slices.end(), above.begin(), above.end());
     return off_the_object(slices, frame_, settings_);
 }
 
-Cavity OutsideRoom::of(const std::shared_ptr<const Slice>& slice, const std::vector<std::shared_ptr<const Slice>>& above) const {
+Cavity OutsideRoom::of(const std::shared_ptr<const Slice>& slice,
+                       const std::vector<std::shared_ptr<const Slice>>& above) const {
     Cavity outside = make_outside(*slice, frame_, settings_);
     if (ways_)
         outside.walls = way_at(slice->layer), outside.on_bed = true;
@@ -77,7 +80,8 @@ void OutsideRoom::find_ways_to_bed(const Slicer& slicer, int threads, const std:
         std::vector<LayerPtr> complete;
         const bool last = waiting.back()->layer == layers - 1;
         while (!waiting.empty() && (last || static_cast<int>(waiting.size()) > apart)) {
-            complete.push_back(std::make_shared<Layer>(Layer{waiting.front(), {waiting.begin() + 1, waiting.end()}, {}}));
+            complete.push_back(
+                std::make_shared<Layer>(Layer{waiting.front(), {waiting.begin() + 1, waiting.end()}, {}}));
             waiting.pop_front();
         }
         return complete;
@@ -87,22 +91,26 @@ void OutsideRoom::find_ways_to_bed(const Slicer& slicer, int threads, const std:
         return complete;
     };
     Region way;
-    // What a wall in W_{i+1} needs below it must lie within r + ρ less three times the slack of W_i to be grown (vault/next_layer.cpp); and the contours, of
-    // which each layer would add arcs, are kept simple.
-    const double simple = 2 * static_cast<double>(settings_.slack), reach = static_cast<double>(settings_.support_radius - 4 * settings_.slack) - simple;
+    // What a wall in W_{i+1} needs below it must lie within r + ρ less three times the slack of W_i to be grown
+    // (vault/next_layer.cpp); and the contours, of which each layer would add arcs, are kept simple.
+    const double simple = 2 * static_cast<double>(settings_.slack),
+                 reach = static_cast<double>(settings_.support_radius - 4 * settings_.slack) - simple;
     const auto follow = [&](const std::vector<LayerPtr>& complete) {
         for (const LayerPtr& layer : complete) {
-            way = layer->slice->layer == 0 ? std::move(layer->off) : uncross(intersect(layer->off, offset(simplified(way, simple), reach, ClipperLib::jtRound, simple)));
+            way = layer->slice->layer == 0 ? std::move(layer->off)
+                                           : uncross(intersect(layer->off, offset(simplified(way, simple), reach,
+                                                                                  ClipperLib::jtRound, simple)));
             std::string bytes;
             pack(bytes, way);
             ways_->add(bytes);
         }
     };
-    tbb::parallel_pipeline(4 * limit, tbb::make_filter<void, int>(filter_mode::serial_in_order, produce) &
-                                          tbb::make_filter<int, SlicePtr>(filter_mode::parallel, slice) &
-                                          tbb::make_filter<SlicePtr, std::vector<LayerPtr>>(filter_mode::serial_in_order, gather) &
-                                          tbb::make_filter<std::vector<LayerPtr>, std::vector<LayerPtr>>(filter_mode::parallel, keep_off) &
-                                          tbb::make_filter<std::vector<LayerPtr>, void>(filter_mode::serial_in_order, follow));
+    tbb::parallel_pipeline(
+        4 * limit, tbb::make_filter<void, int>(filter_mode::serial_in_order, produce) &
+                       tbb::make_filter<int, SlicePtr>(filter_mode::parallel, slice) &
+                       tbb::make_filter<SlicePtr, std::vector<LayerPtr>>(filter_mode::serial_in_order, gather) &
+                       tbb::make_filter<std::vector<LayerPtr>, std::vector<LayerPtr>>(filter_mode::parallel, keep_off) &
+                       tbb::make_filter<std::vector<LayerPtr>, void>(filter_mode::serial_in_order, follow));
     if (stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
     ways_->finish();
 }

@@ -38,8 +38,8 @@ std::string share(const Enclosure& part, double whole) {
 }
 
 std::string where(const HangingFeature& f) {
-    return "layer " + std::to_string(f.worst_layer) + ", x " + fixed(f.worst_at[0], 3) + " y " + fixed(f.worst_at[1], 3) + ", line " +
-           std::to_string(f.worst_line);
+    return "layer " + std::to_string(f.worst_layer) + ", x " + fixed(f.worst_at[0], 3) + " y " +
+           fixed(f.worst_at[1], 3) + ", line " + std::to_string(f.worst_line);
 }
 
 void describe_features(std::string& text, const PrintReport& r) {
@@ -48,10 +48,12 @@ void describe_features(std::string& text, const PrintReport& r) {
         if (f.tracks > 0) width = std::max(width, f.name.size() + (f.judged ? 0 : 13));
     const int w = static_cast<int>(std::min<std::size_t>(width, 40));
     const bool bridges = r.longest_bridge_mm.has_value();
-    print(text, "%-*s %12s %16s %9s %s %-10s %s\n", w, "feature", "length mm", "unsupported mm", "share", bridges ? "   bridges mm " : "", "worst mm", "where");
-    const auto row = [&](const std::string& name, double length, const Enclosure& hangs, const Enclosure& bridged, const std::string& worst,
-                         const std::string& place) {
-        print(text, "%-*.60s %12.2f %16s %9s ", w, name.c_str(), length, collapsed(hangs, 3).c_str(), share(hangs, length).c_str());
+    print(text, "%-*s %12s %16s %9s %s %-10s %s\n", w, "feature", "length mm", "unsupported mm", "share",
+          bridges ? "   bridges mm " : "", "worst mm", "where");
+    const auto row = [&](const std::string& name, double length, const Enclosure& hangs, const Enclosure& bridged,
+                         const std::string& worst, const std::string& place) {
+        print(text, "%-*.60s %12.2f %16s %9s ", w, name.c_str(), length, collapsed(hangs, 3).c_str(),
+              share(hangs, length).c_str());
         if (bridges) print(text, "%13s  ", collapsed(bridged, 3).c_str());
         print(text, "%-10s %s\n", worst.c_str(), place.c_str());
     };
@@ -62,7 +64,8 @@ void describe_features(std::string& text, const PrintReport& r) {
             continue;
         }
         const bool hangs = f.worst_layer >= 0;
-        row(f.name, f.length_mm, f.unsupported_mm, f.bridged_mm, hangs ? collapsed(f.worst_mm, 3) : "-", hangs ? where(f) : "");
+        row(f.name, f.length_mm, f.unsupported_mm, f.bridged_mm, hangs ? collapsed(f.worst_mm, 3) : "-",
+            hangs ? where(f) : "");
     }
     row("total", r.length_mm, r.unsupported_mm, r.bridged_mm, "", "");
 }
@@ -70,14 +73,23 @@ void describe_features(std::string& text, const PrintReport& r) {
 void describe_verdict(std::string& text, const PrintReport& r) {
     if (r.supported) {
         print(text, "supported  equation (2) holds on all %d layers, decided exactly%s\n", r.layer_count,
-              r.area_mm2.hi > 0 ? ", but for regions that --min-area lets pass" : r.bridged_mm.hi > 0 ? ", but for the bridges" : "");
+              r.area_mm2.hi > 0     ? ", but for regions that --min-area lets pass"
+              : r.bridged_mm.hi > 0 ? ", but for the bridges"
+                                    : "");
         if (r.support_gap_mm > 0 || r.support_gap_layers > 0)
-            print(text, "           across gaps: within %.5g mm and half a nozzle of the object, and with %d layers left empty under it\n", r.support_gap_mm, r.support_gap_layers);
-        if (r.bed_only) print(text, "           with supports that lie on supports alone, down to the bed (--bed-only)\n");
-        if (r.inside) print(text, "           inside the outline of the layer below; what hangs outside it was not judged (--inside)\n");
+            print(text,
+                  "           across gaps: within %.5g mm and half a nozzle of the object, and with %d layers left "
+                  "empty under it\n",
+                  r.support_gap_mm, r.support_gap_layers);
+        if (r.bed_only)
+            print(text, "           with supports that lie on supports alone, down to the bed (--bed-only)\n");
+        if (r.inside)
+            print(
+                text,
+                "           inside the outline of the layer below; what hangs outside it was not judged (--inside)\n");
     } else {
-        print(text, "NOT SUPPORTED  on %d of %d layers, %s mm2 in all have no material within rho below:\n", r.layers_unsupported, r.layer_count,
-              collapsed(r.area_mm2, 3).c_str());
+        print(text, "NOT SUPPORTED  on %d of %d layers, %s mm2 in all have no material within rho below:\n",
+              r.layers_unsupported, r.layer_count, collapsed(r.area_mm2, 3).c_str());
         for (const std::size_t k : worst_layers(r, 5)) {
             const HangingLayer& layer = r.layers[k];
             Enclosure area;
@@ -87,9 +99,9 @@ void describe_verdict(std::string& text, const PrintReport& r) {
                 if (worst == nullptr || region.area_mm2.middle() > worst->area_mm2.middle()) worst = &region;
             }
             if (worst == nullptr) continue;
-            print(text, "  layer %d (z %.2f): %s mm2 in %zu regions, the largest at x %.3f y %.3f, line %lld\n", layer.layer, layer.z_mm,
-                  collapsed(area, 3).c_str(), layer.regions.size(), worst->witness[0], worst->witness[1],
-                  static_cast<long long>(worst->lines.empty() ? 0 : worst->lines.front()));
+            print(text, "  layer %d (z %.2f): %s mm2 in %zu regions, the largest at x %.3f y %.3f, line %lld\n",
+                  layer.layer, layer.z_mm, collapsed(area, 3).c_str(), layer.regions.size(), worst->witness[0],
+                  worst->witness[1], static_cast<long long>(worst->lines.empty() ? 0 : worst->lines.front()));
         }
     }
 }
@@ -98,13 +110,16 @@ void describe_verdict(std::string& text, const PrintReport& r) {
 
 std::string summary(const PrintReport& r, const VerifyJob& job) {
     std::string text;
-    print(text, "%s: %s, %lld lines, %d layers; widths %s\n", r.input_path.c_str(), r.flavour == "unknown" ? "unknown slicer" : r.flavour.c_str(),
-          static_cast<long long>(r.lines), r.layer_count,
+    print(text, "%s: %s, %lld lines, %d layers; widths %s\n", r.input_path.c_str(),
+          r.flavour == "unknown" ? "unknown slicer" : r.flavour.c_str(), static_cast<long long>(r.lines), r.layer_count,
           r.widths_computed == 0 ? "as written"
-          : r.widths_written == 0 ? ("from E, filament " + fixed(r.filament_mm, 2) + " mm (" + r.filament_source + ")").c_str()
-                                  : ("as written, some from E, filament " + fixed(r.filament_mm, 2) + " mm (" + r.filament_source + ")").c_str());
+          : r.widths_written == 0
+              ? ("from E, filament " + fixed(r.filament_mm, 2) + " mm (" + r.filament_source + ")").c_str()
+              : ("as written, some from E, filament " + fixed(r.filament_mm, 2) + " mm (" + r.filament_source + ")")
+                    .c_str());
     print(text, "judged with rho = %s mm (%s", fixed(r.support_radius_mm, 4).c_str(), r.support_radius_source.c_str());
-    if (r.support_radius_source != "--support-radius") print(text, "; nozzle %s mm, %s", fixed(r.nozzle_mm, 2).c_str(), r.nozzle_source.c_str());
+    if (r.support_radius_source != "--support-radius")
+        print(text, "; nozzle %s mm, %s", fixed(r.nozzle_mm, 2).c_str(), r.nozzle_source.c_str());
     print(text, ")\n\n");
     describe_features(text, r);
     if (r.set_aside_mm > 0) print(text, "%.2f mm of start and custom G-code are set aside\n", r.set_aside_mm);

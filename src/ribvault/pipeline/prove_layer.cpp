@@ -9,13 +9,18 @@ namespace {
 const ExactPolygons no_object;
 const Region no_cavity;
 
-LayerGeometry geometry(const LayerMaterial& layer) { return {layer.slice->exact.get(), &layer.cavity->region, *layer.tracks}; }
+LayerGeometry geometry(const LayerMaterial& layer) {
+    return {layer.slice->exact.get(), &layer.cavity->region, *layer.tracks};
+}
 
-/// What lies under a gap: the slice of the layer just below what hangs, whole, for what hangs over its cavity is another matter; of all others the shells alone.
+/// What lies under a gap: the slice of the layer just below what hangs, whole, for what hangs over its cavity is
+/// another matter; of all others the shells alone.
 ExactPolygons under_gap(const LayerMaterial& next, const std::vector<const LayerMaterial*>& others) {
     std::vector<ExactContour> contours;
     const auto add_slice = [&](const Slice& slice) {
-        for_each_boundary(*slice.exact, [&](const ExactPolygon& boundary) { contours.emplace_back(boundary.vertices_begin(), boundary.vertices_end()); });
+        for_each_boundary(*slice.exact, [&](const ExactPolygon& boundary) {
+            contours.emplace_back(boundary.vertices_begin(), boundary.vertices_end());
+        });
     };
     add_slice(*next.slice);
     for (const LayerMaterial* layer : others) {
@@ -51,10 +56,13 @@ void add_verdict(const PrintVerdict& more, PrintVerdict& verdict) {
 
 LayerVerdict prove_layer(const LayerMaterial& layer, const LayerMaterial& below, const Settings& settings) {
     const LayerGeometry upper = geometry(layer), lower = geometry(below);
-    LayerVerdict verdict = settings.support_gap_layers == 0 ? verify_layer(layer.layer, upper, lower, settings)
-                                                            : verify_layer(layer.layer, {&no_object, &no_cavity, *layer.tracks}, lower, settings);
+    LayerVerdict verdict = settings.support_gap_layers == 0
+                               ? verify_layer(layer.layer, upper, lower, settings)
+                               : verify_layer(layer.layer, {&no_object, &no_cavity, *layer.tracks}, lower, settings);
     if (settings.bed_only && !layer.external->empty())
-        add_verdict(verify_layer(layer.layer, {&no_object, &no_cavity, *layer.external}, {&no_object, &no_cavity, *below.external}, settings), verdict);
+        add_verdict(verify_layer(layer.layer, {&no_object, &no_cavity, *layer.external},
+                                 {&no_object, &no_cavity, *below.external}, settings),
+                    verdict);
     return verdict;
 }
 
@@ -64,7 +72,8 @@ LayerVerdict prove_over_gap(const OverGap& over, const LayerMaterial& holding, c
     const LayerMaterial& next = over.gap.empty() ? holding : over.gap.front();
     Settings inside = settings;
     inside.support = Support::internal;
-    LayerVerdict verdict = verify_layer(over.upper.layer, shell, {next.slice->exact.get(), &next.cavity->region, *next.internal}, inside);
+    LayerVerdict verdict =
+        verify_layer(over.upper.layer, shell, {next.slice->exact.get(), &next.cavity->region, *next.internal}, inside);
     verdict.external.reset();
     if (over.over_bed) return verdict;
     std::vector<const LayerMaterial*> others{&holding};

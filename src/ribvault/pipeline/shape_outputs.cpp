@@ -6,7 +6,8 @@
 
 namespace ribvault {
 
-void ShapeOutputs::open(const std::optional<std::filesystem::path>& layers, const std::optional<std::filesystem::path>& page) {
+void ShapeOutputs::open(const std::optional<std::filesystem::path>& layers,
+                        const std::optional<std::filesystem::path>& page) {
     if (layers) layers_.emplace(Output{AtomicFile(*layers), {}});
     if (page) page_.emplace(Output{AtomicFile(*page), {}});
 }

@@ -25,7 +25,11 @@ public:
         if (gap_ == 0) return result;
         for (std::size_t k = 0; k < above_.size(); ++k)
             if (above_[k].layer - layer.layer == static_cast<int>(gap_) + 1 || layer.layer == 0)
-                result.push_back({above_[k], above_[k].layer <= static_cast<int>(gap_), {above_.begin() + static_cast<std::ptrdiff_t>(k) + 1, above_.end()}, nullptr, {}});
+                result.push_back({above_[k],
+                                  above_[k].layer <= static_cast<int>(gap_),
+                                  {above_.begin() + static_cast<std::ptrdiff_t>(k) + 1, above_.end()},
+                                  nullptr,
+                                  {}});
         above_.push_back(layer);
         if (above_.size() > gap_ + 1) above_.pop_front();
         return result;
@@ -38,10 +42,11 @@ private:
 
 }  // namespace
 
-StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const TrackSettings& track_settings, int threads,
-                        const std::function<std::shared_ptr<void>(const SweptLayer&, const LayerMaterial* below)>& finish,
-                        const std::function<void(const SweptLayer&, std::shared_ptr<void>)>& collect,
-                        const std::function<bool()>& stop, const OutsideRoom* room, const std::function<LayerSupports(std::size_t)>& made) {
+StageTimes sweep_layers(
+    const Slicer& slicer, const Settings& settings, const TrackSettings& track_settings, int threads,
+    const std::function<std::shared_ptr<void>(const SweptLayer&, const LayerMaterial* below)>& finish,
+    const std::function<void(const SweptLayer&, std::shared_ptr<void>)>& collect, const std::function<bool()>& stop,
+    const OutsideRoom* room, const std::function<LayerSupports(std::size_t)>& made) {
     namespace tbb = oneapi::tbb;
     using tbb::filter_mode;
     const std::size_t limit = thread_limit(threads);
@@ -60,13 +65,23 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
                 SupportForest& forest = previous ? previous->forest : none;
                 LayerSupports supports = made ? made(depth++) : next_supports(forest, *token, settings);
                 double bound = 0;
-                if (settings.length_bound) bound = length_bound.next(*token->material.cavity, token->overhang, token->above.cavity.get(), settings);
+                if (settings.length_bound)
+                    bound = length_bound.next(*token->material.cavity, token->overhang, token->above.cavity.get(),
+                                              settings);
                 enter_tracks(supports.forest, token->material);
                 token->swept = std::move(previous);
                 if (token->swept) token->swept->over_gap = overhung.over(token->swept->material);
                 token->below_swept = std::make_shared<const LayerMaterial>(token->material);
-                previous = std::make_shared<SweptLayer>(SweptLayer{
-                    std::move(token->material), std::move(supports.forest), std::move(supports.unsupported), bound, supports.blocked, supports.braces, {}, nullptr, {}, {}});
+                previous = std::make_shared<SweptLayer>(SweptLayer{std::move(token->material),
+                                                                   std::move(supports.forest),
+                                                                   std::move(supports.unsupported),
+                                                                   bound,
+                                                                   supports.blocked,
+                                                                   supports.braces,
+                                                                   {},
+                                                                   nullptr,
+                                                                   {},
+                                                                   {}});
             } else if (previous) {
                 for (auto [e, end] = edges(previous->forest); e != end; ++e) previous->forest[*e].first_layer = true;
                 token->swept = std::move(previous);
@@ -86,13 +101,15 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
             if (over.over_bed) continue;
             PrintedLayer object;
             const PrintedLayer& upper = at(over.upper.layer);
-            std::remove_copy_if(upper.tracks.begin(), upper.tracks.end(), std::back_inserter(object.tracks), is_external_support);
+            std::remove_copy_if(upper.tracks.begin(), upper.tracks.end(), std::back_inserter(object.tracks),
+                                is_external_support);
             auto hanging = std::make_shared<PrintedLayer>();
             hanging->tracks = extruded_outside(object, at(over.upper.layer - 1));
             over.print.hanging = std::move(hanging);
             for (const LayerMaterial& gap : over.gap) {
                 const std::vector<PrintedTrack> tracks = counted_below(at(gap.layer).tracks, settings);
-                std::remove_copy_if(tracks.begin(), tracks.end(), std::back_inserter(over.print.object), is_external_support);
+                std::remove_copy_if(tracks.begin(), tracks.end(), std::back_inserter(over.print.object),
+                                    is_external_support);
             }
             found = &over.print;
         }
@@ -113,14 +130,17 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
         holding.measure([&] {
             const LayerMaterial& material = token->swept->material;
             const bool below_known = settings.support_gap_layers > 0 && newest && newest->outside->walls;
-            const PrintOverGap* over_gap = settings.support_gap_layers > 0 ? find_print_over_gap(*token->swept) : nullptr;
+            const PrintOverGap* over_gap =
+                settings.support_gap_layers > 0 ? find_print_over_gap(*token->swept) : nullptr;
             append_wide_walls(token->swept->forest, material.cavity->region, settings, *material.shell);
-            token->swept->held = hold_print(std::move(*material.shell), token->swept->forest, printed_above.get(), settings, material.outside.get(), over_gap,
-                                            below_known ? &*newest->outside->walls : nullptr);
+            token->swept->held =
+                hold_print(std::move(*material.shell), token->swept->forest, printed_above.get(), settings,
+                           material.outside.get(), over_gap, below_known ? &*newest->outside->walls : nullptr);
             token->swept->printed_above = std::move(printed_above);
             printed_above = token->swept->held.printed;
             if (settings.stands_off()) {
-                patches.push_front(std::make_shared<const NearestSegment>(segments_of(token->swept->held.plan, TrackKind::support)));
+                patches.push_front(
+                    std::make_shared<const NearestSegment>(segments_of(token->swept->held.plan, TrackKind::support)));
                 if (patches.size() > static_cast<std::size_t>(settings.support_gap_layers) + 1) patches.pop_back();
                 token->swept->patches.assign(patches.begin(), patches.end());
             }
@@ -140,10 +160,11 @@ StageTimes sweep_layers(const Slicer& slicer, const Settings& settings, const Tr
         front.remove(token);
     };
 
-    tbb::parallel_pipeline(front.window(limit), front.filter() & tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::serial_in_order, sweep) &
-                                                    tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::serial_in_order, hold) &
-                                                    tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::parallel, complete) &
-                                                    tbb::make_filter<TokenPtr, void>(filter_mode::serial_in_order, deliver));
+    tbb::parallel_pipeline(front.window(limit),
+                           front.filter() & tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::serial_in_order, sweep) &
+                               tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::serial_in_order, hold) &
+                               tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::parallel, complete) &
+                               tbb::make_filter<TokenPtr, void>(filter_mode::serial_in_order, deliver));
     if (stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
     StageTimes times = front.seconds();
     times["sweep"] = sweeping.seconds(), times["hold"] = holding.seconds(), times["finish"] = finishing.seconds();

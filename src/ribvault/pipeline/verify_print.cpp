@@ -28,7 +28,8 @@ double seconds_since(Time::time_point start) { return std::chrono::duration<doub
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorKind::usage, what); }
 
 std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     return text;
 }
 
@@ -38,7 +39,8 @@ std::vector<char> named(const GcodePrint& print, const std::vector<std::string>&
     for (const std::string& entry : list) {
         bool any = false;
         for (std::size_t k = 0; k < print.features.size(); ++k) {
-            if (lower(entry) != lower(print.features[k].name) && lower(entry) != kind_name(print.features[k].kind)) continue;
+            if (lower(entry) != lower(print.features[k].name) && lower(entry) != kind_name(print.features[k].kind))
+                continue;
             chosen[k] = 1;
             any = true;
         }
@@ -57,14 +59,16 @@ std::vector<char> named(const GcodePrint& print, const std::vector<std::string>&
 void check(const VerifyJob& job) {
     const auto need = [](const std::optional<Rational>& value, const char* option, const Rational& most) {
         if (value && (*value <= 0 || *value > most))
-            refuse(std::string(option) + " is " + value->get_str() + "; it must be more than 0 and at most " + most.get_str());
+            refuse(std::string(option) + " is " + value->get_str() + "; it must be more than 0 and at most " +
+                   most.get_str());
     };
     need(job.support_radius, "--support-radius", 100);
     need(job.nozzle, "--nozzle", 100);
     need(job.filament_diameter, "--filament-diameter", 100);
     need(job.layer_height, "--layer-height", 100);
     need(job.longest_bridge, "--allow-bridges", 10000);
-    if (job.overlap && (*job.overlap < 0 || *job.overlap >= 1)) refuse("--overlap is " + job.overlap->get_str() + "; it must be at least 0 and less than 1");
+    if (job.overlap && (*job.overlap < 0 || *job.overlap >= 1))
+        refuse("--overlap is " + job.overlap->get_str() + "; it must be at least 0 and less than 1");
     if (job.min_area < 0) refuse("--min-area is " + job.min_area.get_str() + "; it must be 0 or more");
     if (job.threads < 0) refuse("--threads must be 0 (all processors) or more");
 }
@@ -94,7 +98,9 @@ private:
         if (!job_.svg) return;
         std::error_code error;
         std::filesystem::create_directories(*job_.svg, error);
-        if (error) throw Error(ErrorKind::cannot_write, job_.svg->string() + ": cannot make this folder (" + error.message() + "); choose another with --svg");
+        if (error)
+            throw Error(ErrorKind::cannot_write, job_.svg->string() + ": cannot make this folder (" + error.message() +
+                                                     "); choose another with --svg");
     }
 
     void read() {
@@ -118,7 +124,9 @@ private:
         report_.read_seconds = seconds_since(start_);
         if (!print_.cut.empty()) job_.warn(report_.input_path + " is cut off: " + print_.cut + "; judged up to there");
         if (print_.widths_computed > 0 && report_.filament_source == "default")
-            job_.warn("widths are computed from E with filament of 1.75 mm, as the file names none; --filament-diameter says another");
+            job_.warn(
+                "widths are computed from E with filament of 1.75 mm, as the file names none; --filament-diameter says "
+                "another");
     }
 
     /// ρ and what it comes from.
@@ -134,7 +142,9 @@ private:
         }
         const Rational overlap = job_.overlap.value_or(Rational(1, 2));
         radius_ = job_.support_radius.value_or((1 - overlap) * nozzle);
-        report_.support_radius_source = job_.support_radius ? "--support-radius" : job_.overlap ? "--overlap" : "half the nozzle";
+        report_.support_radius_source = job_.support_radius ? "--support-radius"
+                                        : job_.overlap      ? "--overlap"
+                                                            : "half the nozzle";
         report_.nozzle_mm = nozzle.get_d();
         report_.support_radius_mm = radius_.get_d();
         report_.support_radius_exact = radius_.get_str();
@@ -147,17 +157,20 @@ private:
             report_.support_gap_mm = job_.support_gap->get_d();
             object_reach_ = std::max<Rational>(0, *job_.support_gap + nozzle / 2 - radius_);
         }
-        if (job_.support_gap_layers < 0 || job_.support_gap_layers > 100) refuse("--support-gap-layers must lie between 0 and 100");
+        if (job_.support_gap_layers < 0 || job_.support_gap_layers > 100)
+            refuse("--support-gap-layers must lie between 0 and 100");
         report_.support_gap_layers = job_.support_gap_layers;
         report_.bed_only = job_.bed_only;
-        if (job_.bed_only && job_.longest_bridge) refuse("--bed-only and --allow-bridges: bridges are judged over the object too; give one of them");
+        if (job_.bed_only && job_.longest_bridge)
+            refuse("--bed-only and --allow-bridges: bridges are judged over the object too; give one of them");
         if (job_.bed_only && job_.inside) refuse("--bed-only is about what --inside leaves out; give one of them");
         const auto has_outline = [&](const GcodeLayer& layer) {
             const std::vector<char> outline = outline_tracks(print_, layer);
             return std::find(outline.begin(), outline.end(), 1) != outline.end();
         };
         if (job_.inside && std::none_of(print_.layers.begin(), print_.layers.end(), has_outline))
-            refuse("--inside needs closed loops of outer perimeter, and " + job_.gcode.string() + " has none that end exactly where they begin; judge it without");
+            refuse("--inside needs closed loops of outer perimeter, and " + job_.gcode.string() +
+                   " has none that end exactly where they begin; judge it without");
     }
 
     void choose_features() {
@@ -172,7 +185,8 @@ private:
         const std::size_t limit = thread_limit(job_.threads);
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
         report_.threads = static_cast<int>(limit);
-        const LayerRules rules{radius_, job_.longest_bridge, report_.min_area_mm2, judged_, job_.inside, object_reach_, job_.support_gap_layers, job_.bed_only};
+        const LayerRules rules{radius_,     job_.longest_bridge, report_.min_area_mm2,    judged_,
+                               job_.inside, object_reach_,       job_.support_gap_layers, job_.bed_only};
         const int total = static_cast<int>(print_.layers.size());
         std::vector<JudgedLayer> judged(print_.layers.size());
         std::mutex reporting;

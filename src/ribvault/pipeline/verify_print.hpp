@@ -25,7 +25,8 @@ struct VerifyJob {
     std::optional<Rational> longest_bridge;  ///< mm; default: bridges are not told apart
     bool inside = false;                    ///< judge only what lies inside the outline of the layer below
     Rational min_area = 0;                   ///< mm²; regions up to this do not count
-    std::optional<Rational> support_gap;     ///< mm; what lies within this and half a nozzle of the object's tracks counts as held up by them
+    /// Mm; what lies within this and half a nozzle of the object's tracks counts as held up by them.
+    std::optional<Rational> support_gap;
     int support_gap_layers = 0;              ///< the object may lie on material that is so many layers farther down
     bool bed_only = false;                   ///< supports must lie on supports, down to the bed
     std::optional<std::filesystem::path> report, svg, html;  ///< what to write; svg is a folder
@@ -37,10 +38,10 @@ struct VerifyJob {
     std::function<bool()> stop = [] { return false; };
 };
 
-/// Reads the G-code, judges every layer over the material directly below it, writes what the job names (complete or not at
-/// all). The first layer lies on the bed, which holds up everything. Features that are not judged are material all the
-/// same. The result does not depend on the number of threads.
-/// Throws Error: unreadable (the file), usage (a setting or feature that cannot be), cannot_write, interrupted.
+/// Reads the G-code, judges every layer over the material directly below it, writes what the job names (complete or not
+/// at all). The first layer lies on the bed, which holds up everything. Features that are not judged are material all
+/// the same. The result does not depend on the number of threads. Throws Error: unreadable (the file), usage (a setting
+/// or feature that cannot be), cannot_write, interrupted.
 PrintReport verify_print(const VerifyJob& job);
 
 struct JudgedPrint {

@@ -1,7 +1,8 @@
-// The paper's printers: "Orange models have been printed on an Ultimaker 3 using PLA plastic; white models on a Prima P120
-// using PLA; the blue Buddha on a eMotion Tech MicroDelta Rework; the giant octopus on a CR-10 printer; the yellow Moai on a
-// Ultimaker 2" (Section 5), all with a 0.4 mm nozzle and 0.2 mm layers; retraction 3 mm and 5 % prime surplus from Section 5.1.
-// Sizes and filament are the makers'; speeds, accelerations and PLA temperatures are sensible values, not the paper's.
+// The paper's printers: "Orange models have been printed on an Ultimaker 3 using PLA plastic; white models on a Prima
+// P120 using PLA; the blue Buddha on a eMotion Tech MicroDelta Rework; the giant octopus on a CR-10 printer; the yellow
+// Moai on a Ultimaker 2" (Section 5), all with a 0.4 mm nozzle and 0.2 mm layers; retraction 3 mm and 5 % prime surplus
+// from Section 5.1. Sizes and filament are the makers'; speeds, accelerations and PLA temperatures are sensible values,
+// not the paper's.
 #include "ribvault/print/printer_profile.hpp"
 
 namespace ribvault {

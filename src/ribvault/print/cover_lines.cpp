@@ -127,10 +127,12 @@ std::optional<Contour> boundary_between(const Fill& fill, std::size_t a, double 
     return way;
 }
 
-/// Whether a piece on the line below, beside the one that begins at `crossing`, is not printed yet. Pieces beside each other
-/// overlap along the lines.
+/// Whether a piece on the line below, beside the one that begins at `crossing`, is not printed yet. Pieces beside each
+/// other overlap along the lines.
 bool waits(const Fill& fill, std::size_t crossing) {
-    const auto ends = [&](std::size_t i) { return std::minmax(fill.crossings[i].floor, fill.crossings[fill.crossings[i].across].floor); };
+    const auto ends = [&](std::size_t i) {
+        return std::minmax(fill.crossings[i].floor, fill.crossings[fill.crossings[i].across].floor);
+    };
     const std::size_t line = fill.crossings[crossing].line;
     if (line == 0) return false;
     const auto [lo, hi] = ends(crossing);

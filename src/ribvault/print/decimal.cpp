@@ -40,8 +40,9 @@ ScannedDecimal scan_decimal(std::string_view text) {
         }
     }
     if (!any) return {Fault::no_number, {}, 0};
-    const Int128 value = static_cast<Int128>(whole) * decimal_one +
-                         static_cast<Int128>(fraction) * powers_of_ten[static_cast<std::size_t>(decimal_places - places)];
+    const Int128 value =
+        static_cast<Int128>(whole) * decimal_one +
+        static_cast<Int128>(fraction) * powers_of_ten[static_cast<std::size_t>(decimal_places - places)];
     return {Fault::none, {negative ? -value : value}, static_cast<std::size_t>(at - text.data())};
 }
 
@@ -54,7 +55,9 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
     return scanned.number;
 }
 
-Decimal rounded_decimal(double value) { return {static_cast<Int128>(std::llround(value * 1e9)) * (decimal_one / 1000000000)}; }
+Decimal rounded_decimal(double value) {
+    return {static_cast<Int128>(std::llround(value * 1e9)) * (decimal_one / 1000000000)};
+}
 
 std::optional<Decimal> inches(Decimal d) {
     const Int128 product = d.value * 254;  // below 1e7 * 1e18 * 254: it fits

@@ -9,7 +9,8 @@
 namespace ribvault {
 namespace {
 
-constexpr Unit within_edge = 5;  ///< by so much more than needed for rounding a patch may stand out of the slice whose edge it follows
+/// By so much more than needed for rounding a patch may stand out of the slice whose edge it follows.
+constexpr Unit within_edge = 5;
 
 /// The k-th of the points that divide a segment into so many pieces.
 Point division(const Segment& s, std::size_t k, std::size_t pieces) {
@@ -20,18 +21,27 @@ Point division(const Segment& s, std::size_t k, std::size_t pieces) {
 
 }  // namespace
 
-GapPatches::GapPatches(const Cavity& beside, const Region* walls_below_gap, const LayerPlan& plan, const PlanTracks& tracks, std::vector<Patch>& patches, const Settings& settings)
-    : plan_(plan), tracks_(tracks), patches_(patches), settings_(settings), walls_(*beside.walls), air_(beside.region, edges_off_frame(beside.region)) {
+GapPatches::GapPatches(const Cavity& beside, const Region* walls_below_gap, const LayerPlan& plan,
+                       const PlanTracks& tracks, std::vector<Patch>& patches, const Settings& settings)
+    : plan_(plan),
+      tracks_(tracks),
+      patches_(patches),
+      settings_(settings),
+      walls_(*beside.walls),
+      air_(beside.region, edges_off_frame(beside.region)) {
     if (walls_below_gap) below_gap_.emplace(*walls_below_gap);
 }
 
 bool GapPatches::may_stand(const Segment& s) const {
-    const auto too_near = [&](const Patch& patch) { return patch.kind == TrackKind::support && distance(patch.segment, s) < static_cast<double>(apart()); };
+    const auto too_near = [&](const Patch& patch) {
+        return patch.kind == TrackKind::support && distance(patch.segment, s) < static_cast<double>(apart());
+    };
     if (std::any_of(patches_.begin(), patches_.end(), too_near)) return false;
     Box box;
     box.add(s.a), box.add(s.b);
     bool crosses = false;
-    walls_.edges.visit(box, [&](std::uint32_t k) { crosses = crosses || segments_touch(walls_.edges.segments()[k], s); });
+    walls_.edges.visit(box,
+                       [&](std::uint32_t k) { crosses = crosses || segments_touch(walls_.edges.segments()[k], s); });
     return !crosses && walls_.holds(s.a);
 }
 
@@ -43,7 +53,8 @@ double GapPatches::room_around(const Segment& patch) const {
     double room = static_cast<double>(apart() + 1);
     tracks_.segments().visit(box, [&](std::uint32_t k) {
         const PlanTracks::Place place = tracks_.place(k);
-        if (plan_.tracks[place.track].paths[place.path].kind == TrackKind::external_support) room = std::min(room, distance(tracks_.segments().segments()[k], patch));
+        if (plan_.tracks[place.track].paths[place.path].kind == TrackKind::external_support)
+            room = std::min(room, distance(tracks_.segments().segments()[k], patch));
     });
     for (const Patch& other : patches_)
         if (other.kind == TrackKind::external_support) room = std::min(room, distance(other.segment, patch));
@@ -52,7 +63,8 @@ double GapPatches::room_around(const Segment& patch) const {
 
 Point GapPatches::Edge::shifted(Unit by) const {
     const double l = length(inwards), t = l > 0 ? static_cast<double>(by) / l : 0;
-    return foot + Point{round_to_lattice(t * static_cast<double>(inwards.x)), round_to_lattice(t * static_cast<double>(inwards.y))};
+    return foot + Point{round_to_lattice(t * static_cast<double>(inwards.x)),
+                        round_to_lattice(t * static_cast<double>(inwards.y))};
 }
 
 GapPatches::Edge GapPatches::edge_beside(Point p) const {
@@ -63,12 +75,15 @@ GapPatches::Edge GapPatches::edge_beside(Point p) const {
     return {foot, {edge.b.y - edge.a.y, edge.a.x - edge.b.x}};
 }
 
-bool GapPatches::is_within(Point p, Unit depth) const { return !in_air(p) && compare_distance(p, air_.nearest_edge(p), depth) >= 0; }
+bool GapPatches::is_within(Point p, Unit depth) const {
+    return !in_air(p) && compare_distance(p, air_.nearest_edge(p), depth) >= 0;
+}
 
 Point GapPatches::nearest_of_slice(Point p) const { return in_air(p) ? nearest_point(p, air_.nearest_edge(p)) : p; }
 
-/// The place for a patch of the object that holds up what is over p: as near to it as a track can be that does not stand out of the slice. Where the slice has no room for one,
-/// the point of the slice nearest to p, moved inwards as far as needed to keep off external supports; where they are too near on both sides, the place farthest from them.
+/// The place for a patch of the object that holds up what is over p: as near to it as a track can be that does not
+/// stand out of the slice. Where the slice has no room for one, the point of the slice nearest to p, moved inwards as
+/// far as needed to keep off external supports; where they are too near on both sides, the place farthest from them.
 Point GapPatches::place_in_object(Point p) const {
     const Unit flush = settings_.nozzle / 2 - within_edge;
     Point within = p;
@@ -79,7 +94,8 @@ Point GapPatches::place_in_object(Point p) const {
     const Edge edge = edge_beside(p);
     Point best = nearest_of_slice(p);
     double most = -1;
-    for (const Point place : {best, edge.shifted(flush / 4), edge.shifted(flush / 2), edge.shifted(3 * flush / 4), edge.shifted(flush)}) {
+    for (const Point place :
+         {best, edge.shifted(flush / 4), edge.shifted(flush / 2), edge.shifted(3 * flush / 4), edge.shifted(flush)}) {
         const double room = room_around({place, place});
         if (room > most) best = place, most = room;
         if (room >= static_cast<double>(apart())) break;
@@ -87,7 +103,8 @@ Point GapPatches::place_in_object(Point p) const {
     return best;
 }
 
-/// The object's: where its slice is too thin to be printed, it is printed, in pieces short enough to follow its outline. Says no when the stretch is not over such a place.
+/// The object's: where its slice is too thin to be printed, it is printed, in pieces short enough to follow its
+/// outline. Says no when the stretch is not over such a place.
 bool GapPatches::add_object(const Segment& hanging, Unit reach, bool at_edge) {
     if (air_.edges.empty()) return false;
     const auto pieces = static_cast<std::size_t>(length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
@@ -100,7 +117,8 @@ bool GapPatches::add_object(const Segment& hanging, Unit reach, bool at_edge) {
         if (k == 0) continue;
         // Feet on two sides of a notch: the way between them would lie in the air.
         const Point middle{(at[k - 1].x + at[k].x) / 2, (at[k - 1].y + at[k].y) / 2};
-        const bool apart = in_air(middle) && compare_distance(middle, air_.nearest_edge(middle), settings_.nozzle / 4) > 0;
+        const bool apart =
+            in_air(middle) && compare_distance(middle, air_.nearest_edge(middle), settings_.nozzle / 4) > 0;
         if (apart || !keeps_off_supports({at[k - 1], at[k]})) {
             patches_.push_back({{at[k - 1], at[k - 1]}, TrackKind::support});
             patches_.push_back({{at[k], at[k]}, TrackKind::support});
@@ -112,7 +130,8 @@ bool GapPatches::add_object(const Segment& hanging, Unit reach, bool at_edge) {
 }
 
 bool GapPatches::add(const Segment& hanging, bool again) {
-    const bool object_first = again || !is_printed(hanging.a, settings_.nozzle / 4) || !is_printed(hanging.b, settings_.nozzle / 4);
+    const bool object_first =
+        again || !is_printed(hanging.a, settings_.nozzle / 4) || !is_printed(hanging.b, settings_.nozzle / 4);
     return (object_first && add_object(hanging, settings_.reach_of_object(), again)) || add_support(hanging) ||
            (!object_first && add_object(hanging, settings_.reach_of_object()));
 }
@@ -125,12 +144,13 @@ std::optional<Point> GapPatches::place_for_wall(Point p, Unit reach) const {
     for (Unit ring = 1; ring <= 3; ++ring)
         for (Unit dy = -ring; dy <= ring; ++dy)
             for (Unit dx = -ring; dx <= ring; ++dx)
-                if (const Point q{near.x + dx, near.y + dy}; walls_.holds(q)) return squared_length(q - p) <= reach * reach ? std::optional(q) : std::nullopt;
+                if (const Point q{near.x + dx, near.y + dy}; walls_.holds(q))
+                    return squared_length(q - p) <= reach * reach ? std::optional(q) : std::nullopt;
     return std::nullopt;
 }
 
-/// Where walls must keep off what is right under a stretch: patches at the nearest places where they need not, as far as these can hold up all that a track over there
-/// would: within ρ. Says no when none can.
+/// Where walls must keep off what is right under a stretch: patches at the nearest places where they need not, as far
+/// as these can hold up all that a track over there would: within ρ. Says no when none can.
 bool GapPatches::add_support(const Segment& hanging) {
     const auto pieces = static_cast<std::size_t>(4 * length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
     std::vector<Point> at;
@@ -157,7 +177,9 @@ std::vector<Lane> GapPatches::material_near(const Segment& stretch) const {
     box.add(stretch.a), box.add(stretch.b);
     box.grow(2 * settings_.nozzle + 2 * settings_.support_radius + more);
     std::vector<Lane> lanes;
-    const auto add = [&](const Segment& centre, Unit width, TrackKind kind) { lanes.push_back({centre, kind == TrackKind::external_support ? width : width + more}); };
+    const auto add = [&](const Segment& centre, Unit width, TrackKind kind) {
+        lanes.push_back({centre, kind == TrackKind::external_support ? width : width + more});
+    };
     tracks_.segments().visit(box, [&](std::uint32_t k) {
         const PlanTracks::Place place = tracks_.place(k);
         const ToolPath& path = plan_.tracks[place.track].paths[place.path];
@@ -178,7 +200,8 @@ bool GapPatches::add_under_rim(const HangingStretch& hanging, const std::vector<
         const std::optional<Point> place = place_for_wall(open.front(), reach);
         if (place && may_stand({*place, *place})) patches_.push_back({{*place, *place}, TrackKind::external_support});
         const Point first = open.front();
-        std::erase_if(open, [&](Point p) { return p == first || (place && squared_length(p - *place) <= reach * reach); });
+        std::erase_if(open,
+                      [&](Point p) { return p == first || (place && squared_length(p - *place) <= reach * reach); });
     }
     return patches_.size() > before;
 }
@@ -193,7 +216,8 @@ void GapPatches::add_to_object(const Segment& hanging) {
         const bool printed = everywhere([&](Point p) { return is_printed(p, settings_.nozzle / 4); });
         if (printed && everywhere([&](Point p) { return supports_reach_rim(p); })) continue;
         // The rim of what hangs may be within the slice's reach though the centre line is not.
-        if (!add_object(piece, settings_.reach_of_object(), printed)) add_object(piece, settings_.reach_of_object() + settings_.nozzle / 2);
+        if (!add_object(piece, settings_.reach_of_object(), printed))
+            add_object(piece, settings_.reach_of_object() + settings_.nozzle / 2);
     }
 }
 
@@ -202,10 +226,12 @@ bool GapPatches::supports_reach_rim(Point p) const {
     if (!below_gap_ || below_gap_->edges.empty()) return false;
     const Edge edge = edge_beside(p);
     const Point rim = p + (edge.shifted(-settings_.nozzle / 2) - edge.foot);
-    return below_gap_->holds(rim) || compare_distance(rim, below_gap_->nearest_edge(rim), settings_.support_radius - 4 * settings_.slack) <= 0;
+    return below_gap_->holds(rim) ||
+           compare_distance(rim, below_gap_->nearest_edge(rim), settings_.support_radius - 4 * settings_.slack) <= 0;
 }
 
-/// Is the place of the slice that is nearest to p within half a width and `beyond` of a track's centre line? (A corner of 90° is 0.41 r beyond.)
+/// Is the place of the slice that is nearest to p within half a width and `beyond` of a track's centre line? (A corner
+/// of 90° is 0.41 r beyond.)
 bool GapPatches::is_printed(Point p, Unit beyond) const {
     if (air_.edges.empty()) return false;
     const Point foot = nearest_of_slice(p);

@@ -1,4 +1,5 @@
-// Patches beside a removal gap: what belongs to the object keeps within its slice and off the supports, what belongs to these keeps off the object.
+// Patches beside a removal gap: what belongs to the object keeps within its slice and off the supports, what belongs to
+// these keeps off the object.
 #pragma once
 
 #include <memory>
@@ -17,30 +18,35 @@ namespace ribvault {
 /// Adds to a layer's patches. All of it proposes; the print is judged afterwards.
 class GapPatches {
 public:
-    /// `beside`: what lies outside the slice, with `beside.walls`, where supports may stand. `walls_below_gap`: the same under the gap of layers (print/hold_print.hpp).
-    /// `tracks` are those of `plan`, without patches. All must outlive the object.
-    GapPatches(const Cavity& beside, const Region* walls_below_gap, const LayerPlan& plan, const PlanTracks& tracks, std::vector<Patch>& patches, const Settings& settings);
+    /// `beside`: what lies outside the slice, with `beside.walls`, where supports may stand. `walls_below_gap`: the
+    /// same under the gap of layers (print/hold_print.hpp). `tracks` are those of `plan`, without patches. All must
+    /// outlive the object.
+    GapPatches(const Cavity& beside, const Region* walls_below_gap, const LayerPlan& plan, const PlanTracks& tracks,
+               std::vector<Patch>& patches, const Settings& settings);
 
     /// May a support's patch lie there: where walls may, and off the object's patches?
     bool may_stand(const Segment& s) const;
 
-    /// Under a stretch that hangs: the object's edge, where it is not printed (but for its corners) and so fails to hold up what it should; else a support where one
-    /// may stand. `again`: that has not helped, and the object is printed at its very edge, though that stands into the gap. Says no when nothing can be done so.
+    /// Under a stretch that hangs: the object's edge, where it is not printed (but for its corners) and so fails to
+    /// hold up what it should; else a support where one may stand. `again`: that has not helped, and the object is
+    /// printed at its very edge, though that stands into the gap. Says no when nothing can be done so.
     bool add(const Segment& hanging, bool again);
 
-    /// Supports where they may stand and hold up what hangs, its rim included, though they cannot hold up the whole stretch. `more`: what holds it up beside this
-    /// layer's tracks and patches.
+    /// Supports where they may stand and hold up what hangs, its rim included, though they cannot hold up the whole
+    /// stretch. `more`: what holds it up beside this layer's tracks and patches.
     bool add_under_rim(const HangingStretch& hanging, const std::vector<Lane>& more);
 
-    /// With a gap of layers, under what hangs over the object: the object's, where that is within reach of the slice's edge. Not where the edge is printed and only a
-    /// rounded corner lets something hang that supports farther down can hold up.
+    /// With a gap of layers, under what hangs over the object: the object's, where that is within reach of the slice's
+    /// edge. Not where the edge is printed and only a rounded corner lets something hang that supports farther down can
+    /// hold up.
     void add_to_object(const Segment& hanging);
 
 private:
     /// A region with what it takes to look things up in it.
     struct Place {
         explicit Place(const Region& region) : Place(region, edges_of(region)) {}
-        Place(const Region& region, std::vector<Segment> edges) : edges(std::move(edges)), location(edges_of(region), units_per_mm) {}
+        Place(const Region& region, std::vector<Segment> edges)
+            : edges(std::move(edges)), location(edges_of(region), units_per_mm) {}
         const Segment& nearest_edge(Point p) const { return edges.segments()[edges.nearest(p).index]; }
         bool holds(Point p) const { return location.locate(p) == Side::inside; }
         NearestSegment edges;

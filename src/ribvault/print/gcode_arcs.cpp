@@ -27,7 +27,8 @@ std::string arc_points(const GcodeMotion& m, std::vector<std::array<Decimal, 3>>
     if (m.radius.value != 0) {
         const double radius = std::abs(to_double(m.radius)), half = std::hypot(dx, dy) / 2;
         if (half > radius + radii_differ / 2)
-            return "an arc of radius " + mm(radius) + " between points " + mm(2 * half) + " apart; expected at least half of that";
+            return "an arc of radius " + mm(radius) + " between points " + mm(2 * half) +
+                   " apart; expected at least half of that";
         const double height = std::sqrt(std::max(0.0, radius * radius - half * half)) / (2 * half);
         const double side = clockwise == (m.radius.value > 0) ? 1 : -1;
         cx = dx / 2 + side * height * dy;
@@ -37,7 +38,8 @@ std::string arc_points(const GcodeMotion& m, std::vector<std::array<Decimal, 3>>
         cy = to_double(m.centre[1] - m.from[1]);
     }
     const double r0 = std::hypot(cx, cy), r1 = std::hypot(dx - cx, dy - cy);
-    if (!(r0 < largest_radius && r1 < largest_radius)) return "an arc with a radius of 10 m or more, beyond any printer";
+    if (!(r0 < largest_radius && r1 < largest_radius))
+        return "an arc with a radius of 10 m or more, beyond any printer";
     if (std::abs(r0 - r1) > radii_differ)
         return "the arc's ends are " + mm(r0) + " and " + mm(r1) + " from its centre; expected the same";
     const double start = std::atan2(-cy, -cx), end = std::atan2(dy - cy, dx - cx), full = 2 * std::numbers::pi;
@@ -55,7 +57,8 @@ std::string arc_points(const GcodeMotion& m, std::vector<std::array<Decimal, 3>>
     for (long k = 1; k < count; ++k) {
         const double share = static_cast<double>(k) / static_cast<double>(count);
         const double angle = start + share * turn, r = r0 + share * (r1 - r0);
-        points.push_back({m.from[0] + rounded_decimal(cx + r * std::cos(angle)), m.from[1] + rounded_decimal(cy + r * std::sin(angle)),
+        points.push_back({m.from[0] + rounded_decimal(cx + r * std::cos(angle)),
+                          m.from[1] + rounded_decimal(cy + r * std::sin(angle)),
                           m.from[2] + rounded_decimal(share * rise)});
     }
     points.push_back(m.to);

@@ -9,8 +9,9 @@
 
 namespace ribvault {
 
-/// How far, in mm, the chords lie from their arc at most: 1 µm, rounding of their ends included. Where the file's centre is
-/// not equally far from both ends (its decimals are rounded), the arc's radius goes evenly from one to the other.
+/// How far, in mm, the chords lie from their arc at most: 1 µm, rounding of their ends included. Where the file's
+/// centre is not equally far from both ends (its decimals are rounded), the arc's radius goes evenly from one to the
+/// other.
 inline constexpr double arc_bound_mm = 0.001;
 
 /// The points after motion.from, the last one exactly motion.to; x, y, z, with z rising evenly. What is wrong with the

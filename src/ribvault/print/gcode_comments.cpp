@@ -19,7 +19,8 @@ std::string_view trimmed(std::string_view text) {
 
 std::string lower(std::string_view text) {
     std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    std::transform(result.begin(), result.end(), result.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     return result;
 }
 
@@ -57,7 +58,8 @@ std::vector<double> diameters(std::string_view text) {
 
 FeatureKind kind_of(const std::string& name) {
     const auto any = [&](std::initializer_list<const char*> words) {
-        return std::any_of(words.begin(), words.end(), [&](const char* w) { return name.find(w) != std::string::npos; });
+        return std::any_of(words.begin(), words.end(),
+                           [&](const char* w) { return name.find(w) != std::string::npos; });
     };
     if (any({"custom"})) return FeatureKind::custom;
     if (any({"tower", "pillar", "shield"})) return FeatureKind::tower;
@@ -71,9 +73,23 @@ FeatureKind kind_of(const std::string& name) {
 }
 
 /// Simplify3D before version 4 and Slic3r name features by these words and nothing else.
-constexpr std::array<std::string_view, 17> bare_names{
-    "outer perimeter", "inner perimeter", "perimeter", "infill", "solid layer", "solid infill", "bridge", "gap fill", "skirt", "brim",
-    "skirt/brim", "raft", "support", "dense support", "support material", "support material interface", "prime pillar"};
+constexpr std::array<std::string_view, 17> bare_names{"outer perimeter",
+                                                      "inner perimeter",
+                                                      "perimeter",
+                                                      "infill",
+                                                      "solid layer",
+                                                      "solid infill",
+                                                      "bridge",
+                                                      "gap fill",
+                                                      "skirt",
+                                                      "brim",
+                                                      "skirt/brim",
+                                                      "raft",
+                                                      "support",
+                                                      "dense support",
+                                                      "support material",
+                                                      "support material interface",
+                                                      "prime pillar"};
 
 }  // namespace
 
@@ -126,10 +142,15 @@ void GcodeComments::set_feature(std::string_view name) {
 }
 
 void GcodeComments::note_program(std::string_view comment) {
-    static constexpr std::pair<std::string_view, GcodeFlavour> names[] = {
-        {"prusaslicer", GcodeFlavour::prusa_slicer}, {"superslicer", GcodeFlavour::prusa_slicer}, {"orcaslicer", GcodeFlavour::orca_slicer},
-        {"bambustudio", GcodeFlavour::bambu_studio}, {"bambu studio", GcodeFlavour::bambu_studio}, {"cura_steamengine", GcodeFlavour::cura},
-        {"slic3r", GcodeFlavour::slic3r}, {"simplify3d", GcodeFlavour::simplify3d}, {"ribvault", GcodeFlavour::ribvault}};
+    static constexpr std::pair<std::string_view, GcodeFlavour> names[] = {{"prusaslicer", GcodeFlavour::prusa_slicer},
+                                                                          {"superslicer", GcodeFlavour::prusa_slicer},
+                                                                          {"orcaslicer", GcodeFlavour::orca_slicer},
+                                                                          {"bambustudio", GcodeFlavour::bambu_studio},
+                                                                          {"bambu studio", GcodeFlavour::bambu_studio},
+                                                                          {"cura_steamengine", GcodeFlavour::cura},
+                                                                          {"slic3r", GcodeFlavour::slic3r},
+                                                                          {"simplify3d", GcodeFlavour::simplify3d},
+                                                                          {"ribvault", GcodeFlavour::ribvault}};
     const std::string text = lower(comment);
     if (text.find("generated") == std::string::npos && !text.starts_with("bambustudio")) return;
     for (const auto& [name, which] : names) {
@@ -204,12 +225,13 @@ void GcodeComments::read(std::string_view whole) {
         if (std::find(bare_names.begin(), bare_names.end(), text) != bare_names.end()) return set_feature(text);
     }
     if (flavour == GcodeFlavour::unknown || program.empty()) note_program(text);
-    if (text == "end of print" || text.starts_with("End of G") || text == "End GCode" || text == "EXECUTABLE_BLOCK_END" || text.starts_with("filament used") ||
-        text.ends_with("_config = end"))
+    if (text == "end of print" || text.starts_with("End of G") || text == "End GCode" ||
+        text == "EXECUTABLE_BLOCK_END" || text.starts_with("filament used") || text.ends_with("_config = end"))
         ended_ = true;
     if (text == "EXECUTABLE_BLOCK_START") block_started_ = true;
     const std::size_t sign = text.find_first_of("=:,");
-    if (sign != std::string_view::npos && sign < 40) read_setting(trimmed(text.substr(0, sign)), trimmed(text.substr(sign + 1)));
+    if (sign != std::string_view::npos && sign < 40)
+        read_setting(trimmed(text.substr(0, sign)), trimmed(text.substr(sign + 1)));
 }
 
 void GcodeComments::read_behind_move(std::string_view comment) {
@@ -220,7 +242,8 @@ void GcodeComments::read_behind_move(std::string_view comment) {
 
 std::string GcodeComments::missing_end() const {
     if (layers_announced_ > layers_named_ && layers_named_ > 0)
-        return "it announces " + std::to_string(layers_announced_) + " layers and names " + std::to_string(layers_named_);
+        return "it announces " + std::to_string(layers_announced_) + " layers and names " +
+               std::to_string(layers_named_);
     if (ended_) return {};
     switch (flavour) {
         case GcodeFlavour::ribvault: return "the line '; end of print' is missing";

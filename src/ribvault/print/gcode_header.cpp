@@ -51,26 +51,28 @@ std::string value_of(const std::string& name, const Settings& s, const PrinterSe
 std::string limits_text(const PrinterSettings& p) {
     const MotionLimits& l = p.limits;
     const auto axes = [](const char* code, const std::array<double, 4>& v, double factor) {
-        return std::string(code) + " X" + decimal_text(v[0] * factor) + " Y" + decimal_text(v[1] * factor) + " Z" + decimal_text(v[2] * factor) +
-               " E" + decimal_text(v[3] * factor) + "\n";
+        return std::string(code) + " X" + decimal_text(v[0] * factor) + " Y" + decimal_text(v[1] * factor) + " Z" +
+               decimal_text(v[2] * factor) + " E" + decimal_text(v[3] * factor) + "\n";
     };
     switch (p.flavour) {
         case Flavour::klipper:
-            return "SET_VELOCITY_LIMIT VELOCITY=" + decimal_text(l.speed[0]) + " ACCEL=" + decimal_text(l.print_acceleration) +
+            return "SET_VELOCITY_LIMIT VELOCITY=" + decimal_text(l.speed[0]) +
+                   " ACCEL=" + decimal_text(l.print_acceleration) +
                    " SQUARE_CORNER_VELOCITY=" + decimal_text(l.jerk[0]) + "\n";
         case Flavour::reprapfirmware:
             return axes("M201", l.acceleration, 1) + axes("M203", l.speed, 60) + axes("M566", l.jerk, 60) + "M204 P" +
                    decimal_text(l.print_acceleration) + " T" + decimal_text(l.travel_acceleration) + "\n";
         case Flavour::marlin: break;
     }
-    return axes("M201", l.acceleration, 1) + axes("M203", l.speed, 1) + axes("M205", l.jerk, 1) + "M204 P" + decimal_text(l.print_acceleration) +
-           " R" + decimal_text(l.retract_acceleration) + " T" + decimal_text(l.travel_acceleration) + "\n";
+    return axes("M201", l.acceleration, 1) + axes("M203", l.speed, 1) + axes("M205", l.jerk, 1) + "M204 P" +
+           decimal_text(l.print_acceleration) + " R" + decimal_text(l.retract_acceleration) + " T" +
+           decimal_text(l.travel_acceleration) + "\n";
 }
 
 }  // namespace
 
-std::string fill_placeholders(const std::string& text, const std::string& key, const Settings& settings, const PrinterSettings& printer,
-                              const PrintFacts& facts) {
+std::string fill_placeholders(const std::string& text, const std::string& key, const Settings& settings,
+                              const PrinterSettings& printer, const PrintFacts& facts) {
     std::string filled;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
@@ -84,9 +86,12 @@ std::string fill_placeholders(const std::string& text, const std::string& key, c
             continue;
         }
         const std::size_t end = text.find('}', i);
-        if (end == std::string::npos) throw Error(ErrorKind::usage, key + ": a '{' without '}'; write '{{' for a brace");
+        if (end == std::string::npos)
+            throw Error(ErrorKind::usage, key + ": a '{' without '}'; write '{{' for a brace");
         const std::string name = text.substr(i + 1, end - i - 1), value = value_of(name, settings, printer, facts);
-        if (value.empty()) throw Error(ErrorKind::usage, key + ": nothing is known for the placeholder {" + name + "}; docs/printing.md lists those there are");
+        if (value.empty())
+            throw Error(ErrorKind::usage, key + ": nothing is known for the placeholder {" + name +
+                                              "}; docs/printing.md lists those there are");
         filled += value;
         i = end;
     }
@@ -102,9 +107,12 @@ void check_printer(const PrinterSettings& printer) {
     need(printer.filament_diameter > 0, "filament diameter (mm)", printer.filament_diameter, "positive");
     need(printer.nozzle_temperature >= 0, "nozzle temperature (°C)", printer.nozzle_temperature, "0 or more");
     need(printer.bed_temperature >= 0, "bed temperature (°C)", printer.bed_temperature, "0 (not heated) or more");
-    need(printer.support_extruder >= 0 && printer.support_extruder < 64, "tool of external supports", printer.support_extruder, "between 0 and 63");
-    need(printer.support_temperature >= 0, "temperature of external supports (°C)", printer.support_temperature, "0 (as the nozzle's) or more");
-    need(printer.fan_percent >= 0 && printer.fan_percent <= 100, "fan (percent)", printer.fan_percent, "between 0 and 100");
+    need(printer.support_extruder >= 0 && printer.support_extruder < 64, "tool of external supports",
+         printer.support_extruder, "between 0 and 63");
+    need(printer.support_temperature >= 0, "temperature of external supports (°C)", printer.support_temperature,
+         "0 (as the nozzle's) or more");
+    need(printer.fan_percent >= 0 && printer.fan_percent <= 100, "fan (percent)", printer.fan_percent,
+         "between 0 and 100");
     need(printer.print_speed > 0, "print speed (mm/s)", printer.print_speed, "positive");
     need(printer.support_speed > 0, "support speed (mm/s)", printer.support_speed, "positive");
     need(printer.first_layer_speed > 0, "first layer speed (mm/s)", printer.first_layer_speed, "positive");
@@ -117,19 +125,22 @@ void check_printer(const PrinterSettings& printer) {
     need(printer.surplus_clearance >= 0, "surplus clearance (mm)", printer.surplus_clearance, "0 or more");
     for (std::size_t a = 0; a < 4; ++a) {
         need(printer.limits.speed[a] > 0, "highest speed of an axis (mm/s)", printer.limits.speed[a], "positive");
-        need(printer.limits.acceleration[a] > 0, "acceleration of an axis (mm/s2)", printer.limits.acceleration[a], "positive");
+        need(printer.limits.acceleration[a] > 0, "acceleration of an axis (mm/s2)", printer.limits.acceleration[a],
+             "positive");
         need(printer.limits.jerk[a] > 0, "jerk of an axis (mm/s)", printer.limits.jerk[a], "positive");
     }
     need(printer.limits.print_acceleration > 0, "acceleration (mm/s2)", printer.limits.print_acceleration, "positive");
-    need(printer.limits.retract_acceleration > 0, "retract acceleration (mm/s2)", printer.limits.retract_acceleration, "positive");
-    need(printer.limits.travel_acceleration > 0, "travel acceleration (mm/s2)", printer.limits.travel_acceleration, "positive");
+    need(printer.limits.retract_acceleration > 0, "retract acceleration (mm/s2)", printer.limits.retract_acceleration,
+         "positive");
+    need(printer.limits.travel_acceleration > 0, "travel acceleration (mm/s2)", printer.limits.travel_acceleration,
+         "positive");
     fill_placeholders(printer.file_header, "file_header", {}, printer, {});
     fill_placeholders(printer.start_gcode, "start_gcode", {}, printer, {});
     fill_placeholders(printer.end_gcode, "end_gcode", {}, printer, {});
 }
 
-std::string gcode_header(const Settings& settings, const TrackSettings& tracks, const PrinterSettings& printer, const PrintFacts& facts,
-                         const std::string& thumbnails) {
+std::string gcode_header(const Settings& settings, const TrackSettings& tracks, const PrinterSettings& printer,
+                         const PrintFacts& facts, const std::string& thumbnails) {
     check_printer(printer);
     std::string text = fill_placeholders(printer.file_header, "file_header", settings, printer, facts);
     text += "; generated by ribvault\n";
@@ -137,7 +148,9 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
     if (facts.seconds > 0) text += ";TIME:" + std::to_string(std::lround(facts.seconds)) + "\n";
     text += ";LAYER_COUNT:" + std::to_string(facts.layers) + "\n";
     text += thumbnails;
-    const auto comment = [&](const char* name, const std::string& value) { ((((text += "; ") += name) += " = ") += value) += '\n'; };
+    const auto comment = [&](const char* name, const std::string& value) {
+        ((((text += "; ") += name) += " = ") += value) += '\n';
+    };
     comment("printer", printer.name);
     comment("layer_height", decimal_text(to_mm(settings.layer_height)));
     comment("first_layer_height", decimal_text(to_mm(settings.first_layer_height)));
@@ -151,14 +164,18 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
     if (facts.seconds > 0) comment("estimated printing time (normal mode)", duration(facts.seconds));
 
     const std::string& start = printer.start_gcode;
-    const bool heats_bed = !contains(start, "M140") && !contains(start, "M190") && !contains(start, "{bed_temperature}") && printer.bed_temperature > 0;
-    const bool heats_nozzle = !contains(start, "M104") && !contains(start, "M109") && !contains(start, "{nozzle_temperature}");
-    const std::string bed = std::to_string(printer.bed_temperature), nozzle = std::to_string(printer.nozzle_temperature);
+    const bool heats_bed = !contains(start, "M140") && !contains(start, "M190") &&
+                           !contains(start, "{bed_temperature}") && printer.bed_temperature > 0;
+    const bool heats_nozzle =
+        !contains(start, "M104") && !contains(start, "M109") && !contains(start, "{nozzle_temperature}");
+    const std::string bed = std::to_string(printer.bed_temperature),
+                      nozzle = std::to_string(printer.nozzle_temperature);
     if (printer.flavour == Flavour::reprapfirmware) text += "T0\n";
     if (heats_bed) text += "M140 S" + bed + " ; heat the bed\n";
     if (heats_nozzle) text += "M104 S" + nozzle + " ; heat the nozzle\n";
-    const std::string tool = "T" + std::to_string(printer.support_extruder) + " S" +
-                             std::to_string(printer.support_temperature > 0 ? printer.support_temperature : printer.nozzle_temperature);
+    const std::string tool =
+        "T" + std::to_string(printer.support_extruder) + " S" +
+        std::to_string(printer.support_temperature > 0 ? printer.support_temperature : printer.nozzle_temperature);
     const bool heats_tool = printer.support_extruder > 0 && settings.outside() && heats_nozzle;
     if (heats_tool) text += "M104 " + tool + " ; heat the nozzle of the supports\n";
     if (heats_bed) text += "M190 S" + bed + " ; wait for the bed\n";
@@ -168,7 +185,8 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
     text += fill_placeholders(start, "start_gcode", settings, printer, facts);
     text += "G21 ; millimetres\nG90 ; absolute coordinates\nM83 ; relative extrusion\n";
     if (printer.retraction > 0)
-        text += "G1 E-" + decimal_text(printer.retraction) + " F" + decimal_text(printer.retraction_speed * 60) + " ; the first layer starts retracted\n";
+        text += "G1 E-" + decimal_text(printer.retraction) + " F" + decimal_text(printer.retraction_speed * 60) +
+                " ; the first layer starts retracted\n";
     return text;
 }
 
@@ -178,7 +196,8 @@ std::string gcode_footer(const Settings& settings, const PrinterSettings& printe
     const std::string& end = printer.end_gcode;
     if (!contains(end, "M104")) {
         text += "M104 S0 ; nozzle off\n";
-        if (printer.support_extruder > 0 && settings.outside()) text += "M104 T" + std::to_string(printer.support_extruder) + " S0 ; nozzle of the supports off\n";
+        if (printer.support_extruder > 0 && settings.outside())
+            text += "M104 T" + std::to_string(printer.support_extruder) + " S0 ; nozzle of the supports off\n";
     }
     if (!contains(end, "M140") && printer.bed_temperature > 0) text += "M140 S0 ; bed off\n";
     text += fill_placeholders(end, "end_gcode", settings, printer, facts);

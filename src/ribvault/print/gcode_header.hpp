@@ -17,19 +17,19 @@ struct PrintFacts {
     double height_mm = 0;     ///< top of the last layer
 };
 
-/// Throws Error (usage) naming the first printer setting with which no G-code can be written: a number out of range, text
-/// with a placeholder that nothing is known for.
+/// Throws Error (usage) naming the first printer setting with which no G-code can be written: a number out of range,
+/// text with a placeholder that nothing is known for.
 void check_printer(const PrinterSettings& printer);
 
 /// `text` with every {name} replaced by its value; `{{` and `}}` stand for braces. docs/printing.md lists the names.
 /// Throws Error (usage), naming `key` and the placeholder, when a name is unknown or a brace is left open.
-std::string fill_placeholders(const std::string& text, const std::string& key, const Settings& settings, const PrinterSettings& printer,
-                              const PrintFacts& facts);
+std::string fill_placeholders(const std::string& text, const std::string& key, const Settings& settings,
+                              const PrinterSettings& printer, const PrintFacts& facts);
 
-/// The profile's own first lines, then settings and facts as comments, thumbnails, heating (left to the start G-code when that
-/// heats itself), the start G-code, limits of motion when asked for, units. Ends with the filament retracted.
-std::string gcode_header(const Settings& settings, const TrackSettings& tracks, const PrinterSettings& printer, const PrintFacts& facts,
-                         const std::string& thumbnails = {});
+/// The profile's own first lines, then settings and facts as comments, thumbnails, heating (left to the start G-code
+/// when that heats itself), the start G-code, limits of motion when asked for, units. Ends with the filament retracted.
+std::string gcode_header(const Settings& settings, const TrackSettings& tracks, const PrinterSettings& printer,
+                         const PrintFacts& facts, const std::string& thumbnails = {});
 
 /// What comes after the last layer: heaters and fan off, the end G-code, motors off.
 std::string gcode_footer(const Settings& settings, const PrinterSettings& printer, const PrintFacts& facts);

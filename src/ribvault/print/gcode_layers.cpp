@@ -92,7 +92,9 @@ void LayerCollector::end_path() {
 double LayerCollector::set_aside() {
     end_path();
     double sum = 0;
-    const auto add = [&](const GcodePoint& a, const GcodePoint& b) { sum += std::hypot(to_double(b.x - a.x), to_double(b.y - a.y)); };
+    const auto add = [&](const GcodePoint& a, const GcodePoint& b) {
+        sum += std::hypot(to_double(b.x - a.x), to_double(b.y - a.y));
+    };
     for (const auto& [key, layer] : groups_)
         for (const GcodeTrack& t : layer.tracks) add(layer.points[t.a], layer.points[t.b]);
     for (const Climb& c : climbing_) add(flat(c.extrusion.from), flat(c.extrusion.to));
@@ -134,9 +136,9 @@ void LayerCollector::resolve_heights(const GcodePrint& print, const LayerHints& 
         std::size_t most = 0;
         for (; end != groups_.end() && end->first.z == z; ++end) {
             if (end->first.height == 0) continue;
-            const auto count = static_cast<std::size_t>(std::count_if(end->second.tracks.begin(), end->second.tracks.end(), [&](const GcodeTrack& t) {
-                return print.features[t.feature].kind != FeatureKind::bridge;
-            }));
+            const auto count = static_cast<std::size_t>(std::count_if(
+                end->second.tracks.begin(), end->second.tracks.end(),
+                [&](const GcodeTrack& t) { return print.features[t.feature].kind != FeatureKind::bridge; }));
             if (count > most) most = count, said = end->first.height;
         }
         std::int64_t usual = said;
@@ -176,7 +178,8 @@ void LayerCollector::resolve_widths(GcodePrint& print, GcodeLayer& layer, const 
         }
         ++print.widths_computed;
         const Flow& flow = flows_[static_cast<std::size_t>(-t.width - 1)];
-        const double diameter = hints.filaments[std::min(static_cast<std::size_t>(flow.tool), hints.filaments.size() - 1)];
+        const double diameter =
+            hints.filaments[std::min(static_cast<std::size_t>(flow.tool), hints.filaments.size() - 1)];
         const double area = flow.volumetric ? 1 : std::numbers::pi / 4 * diameter * diameter;
         const double um = flow.length > 0 ? 1000 * flow.pushed * area / (flow.length * height) : 1;
         const double clamped = std::clamp(std::round(um), 1.0, static_cast<double>(widest) / 1000000);
@@ -230,7 +233,8 @@ void find_layers_below(std::vector<GcodeLayer>& layers) {
                 continue;
             }
             const std::int64_t nearest = top(j), air = bottom(k) - nearest;
-            if (air > layer.height) layer.air_layers = static_cast<int>((air - rounding + layer.height - 1) / layer.height);
+            if (air > layer.height)
+                layer.air_layers = static_cast<int>((air - rounding + layer.height - 1) / layer.height);
             std::vector<std::size_t>& entries = layer.air_layers > 0 ? layer.under_air : layer.below;
             for (; top(j) == nearest; --j) {
                 entries.push_back(j);

@@ -31,10 +31,12 @@ struct LayerHints {
 };
 
 /// Layers come from where material is pushed out, not from comments: all level extrusions at one z are a layer, in
-/// whatever order the file has them (objects printed one after the other share layers). Z-hops push nothing and are none.
+/// whatever order the file has them (objects printed one after the other share layers). Z-hops push nothing and are
+/// none.
 ///
-/// A path that climbs while it extrudes (a spiral vase, a seam that ramps up) belongs to the layer of level extrusions that it
-/// climbs to, at most one height below it; where there is none, layers of one height are counted on from the last.
+/// A path that climbs while it extrudes (a spiral vase, a seam that ramps up) belongs to the layer of level extrusions
+/// that it climbs to, at most one height below it; where there is none, layers of one height are counted on from the
+/// last.
 class LayerCollector {
 public:
     void extrude(const Extrusion& e);
@@ -46,10 +48,10 @@ public:
 
     /// The layers by z and height, their widths, what is below each. The collector is empty afterwards.
     ///
-    /// Heights: as the file says, except for bridges, which it describes as round threads: theirs is their layer's. Where it does
-    /// not say: the distance to the next lower layer. Widths that the file does not say: pushed volume over length
-    /// times height, the rectangle of the same cross-section, to 1 µm: narrower than the round-edged track that is
-    /// printed by 0.21 times the height. Volumes of stretches below 0.25 mm are pooled, as E is rounded.
+    /// Heights: as the file says, except for bridges, which it describes as round threads: theirs is their layer's.
+    /// Where it does not say: the distance to the next lower layer. Widths that the file does not say: pushed volume
+    /// over length times height, the rectangle of the same cross-section, to 1 µm: narrower than the round-edged track
+    /// that is printed by 0.21 times the height. Volumes of stretches below 0.25 mm are pooled, as E is rounded.
     void finish(GcodePrint& print, const LayerHints& hints);
 
 private:
@@ -90,11 +92,11 @@ private:
     bool flow_open_ = false;
 };
 
-/// The rule for `below` (1e-9 mm throughout). An entry with top z and height h has its bottom at z - h. Directly below are all
-/// entries whose top is at that bottom, to within 0.005 mm (slicers round), and those that reach past it but not to z
-/// (layers of other heights in between: supports, combined infill). Where there is none, the nearest below counts unless a whole layer
-/// of air is between (`under_air`, `air_layers`); below the lowest layer, and below every entry whose bottom is no higher than the lowest's,
-/// is the bed.
+/// The rule for `below` (1e-9 mm throughout). An entry with top z and height h has its bottom at z - h. Directly below
+/// are all entries whose top is at that bottom, to within 0.005 mm (slicers round), and those that reach past it but
+/// not to z (layers of other heights in between: supports, combined infill). Where there is none, the nearest below
+/// counts unless a whole layer of air is between (`under_air`, `air_layers`); below the lowest layer, and below every
+/// entry whose bottom is no higher than the lowest's, is the bed.
 void find_layers_below(std::vector<GcodeLayer>& layers);
 
 }  // namespace ribvault

@@ -49,7 +49,8 @@ std::string GcodeMachine::move(const GcodeWords& w, GcodeMotion& motion) {
             to[k] = relative_ ? at_[k] + given : given;
         }
         motion.to[k] = to[k] + offset_[k];
-        if (too_far(motion.to[k])) return std::string(1, axis_letters[k]) + " goes 10 km from the origin, beyond any printer";
+        if (too_far(motion.to[k]))
+            return std::string(1, axis_letters[k]) + " goes 10 km from the origin, beyond any printer";
     }
     motion.pushed = 0;
     Decimal& e = pushed_[static_cast<std::size_t>(tool_)];

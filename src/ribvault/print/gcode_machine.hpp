@@ -21,9 +21,9 @@ struct GcodeMotion {
     bool moves_up() const { return from[2] != to[2]; }
 };
 
-/// G0 to G3, G17 to G21, G28, G90 to G92, M82, M83, M200 and T. X, Y, Z and E are absolute until G91 and M83 say otherwise;
-/// under G91 E is relative too, and G90 does not undo M83 (as PrusaSlicer, Klipper and Prusa's firmware have it). Every tool
-/// has its own E. G28 puts its axes at 0.
+/// G0 to G3, G17 to G21, G28, G90 to G92, M82, M83, M200 and T. X, Y, Z and E are absolute until G91 and M83 say
+/// otherwise; under G91 E is relative too, and G90 does not undo M83 (as PrusaSlicer, Klipper and Prusa's firmware have
+/// it). Every tool has its own E. G28 puts its axes at 0.
 class GcodeMachine {
 public:
     static constexpr int tools = 64;

@@ -30,7 +30,9 @@ inline void append_decimal(std::string& text, std::int64_t value) {
     text.append(digits, static_cast<std::size_t>(count));
 }
 
-inline std::int64_t hundred_thousandths(double value) { return std::llround(value * static_cast<double>(units_per_mm)); }
+inline std::int64_t hundred_thousandths(double value) {
+    return std::llround(value * static_cast<double>(units_per_mm));
+}
 
 inline std::string decimal_text(double value) {
     std::string text;

@@ -51,7 +51,8 @@ std::string scan_words(std::string_view text, GcodeWords& w) {
             case ScannedDecimal::Fault::none: break;
             case ScannedDecimal::Fault::no_number:
                 if (!flags)
-                    return (text.empty() ? "the line ends" : quoted_text(text) + " stands") + " where the number of " + letter + " should";
+                    return (text.empty() ? "the line ends" : quoted_text(text) + " stands") + " where the number of " +
+                           letter + " should";
                 w.bare |= bit;
                 break;
             case ScannedDecimal::Fault::too_many_decimals:

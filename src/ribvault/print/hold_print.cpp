@@ -18,26 +18,37 @@ namespace {
 
 constexpr int rounds = 6;  ///< of mending, each of which is followed by another look
 
-Lane lane_of(const PrintedTrack& track) { return {place_of(track, {0, 0, HUGE_VAL}), round_to_lattice(track.width.get_d() * units_per_mm)}; }
+Lane lane_of(const PrintedTrack& track) {
+    return {place_of(track, {0, 0, HUGE_VAL}), round_to_lattice(track.width.get_d() * units_per_mm)};
+}
 
-/// Without its isolated roots, which hold up the last stub of a wall above: they are printed where something hangs without them, as patches.
+/// Without its isolated roots, which hold up the last stub of a wall above: they are printed where something hangs
+/// without them, as patches.
 SupportForest without_dots(const SupportForest& forest) {
     SupportForest walls;
     std::vector<std::size_t> index(num_vertices(forest));
     for (auto [v, end] = vertices(forest); v != end; ++v)
         if (out_degree(*v, forest) > 0 || forest[*v].free) index[*v] = add_vertex(forest[*v], walls);
-    for (auto [e, end] = edges(forest); e != end; ++e) add_edge(index[source(*e, forest)], index[target(*e, forest)], forest[*e], walls);
+    for (auto [e, end] = edges(forest); e != end; ++e)
+        add_edge(index[source(*e, forest)], index[target(*e, forest)], forest[*e], walls);
     return walls;
 }
 
 class Holder {
 public:
-    Holder(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Cavity* beside, const PrintOverGap* over_gap, const Region* walls_below_gap,
-           const Settings& settings)
-        : shell_(std::move(shell)), forest_(settings.gaps == Gaps::proved ? without_dots(forest) : forest), above_(above), over_gap_(over_gap), settings_(settings), beside_(beside), walls_below_gap_(walls_below_gap) {
+    Holder(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Cavity* beside,
+           const PrintOverGap* over_gap, const Region* walls_below_gap, const Settings& settings)
+        : shell_(std::move(shell)),
+          forest_(settings.gaps == Gaps::proved ? without_dots(forest) : forest),
+          above_(above),
+          over_gap_(over_gap),
+          settings_(settings),
+          beside_(beside),
+          walls_below_gap_(walls_below_gap) {
         // What stands on nothing but supports is printed as it is proved.
         for (auto [e, end] = edges(forest_); e != end; ++e)
-            if (settings.gaps == Gaps::none || (settings.bed_only && forest_[source(*e, forest_)].outside)) forest_[*e].to_junction = true;
+            if (settings.gaps == Gaps::none || (settings.bed_only && forest_[source(*e, forest_)].outside))
+                forest_[*e].to_junction = true;
     }
 
     HeldLayer run() {
@@ -54,7 +65,8 @@ public:
             for (PrintPart& part : held_.parts) part.judgement.change_below(*held_.printed);
             hanging = open();
         }
-        if (settings_.outside() && settings_.support_gap_layers > 0 && settings_.gaps != Gaps::paper) patch_object_under_overhangs();
+        if (settings_.outside() && settings_.support_gap_layers > 0 && settings_.gaps != Gaps::paper)
+            patch_object_under_overhangs();
         for (const Patch& patch : patches_) held_.patch_tracks.push_back(patch.segment);
         return std::move(held_);
     }
@@ -65,14 +77,17 @@ private:
         OpenStretch stretch;
         bool over_gap;
         Segment place() const { return place_of(*track, stretch); }
-        HangingStretch hanging() const { return {lane_of(*track), stretch.from_mm * units_per_mm, stretch.to_mm * units_per_mm}; }
+        HangingStretch hanging() const {
+            return {lane_of(*track), stretch.from_mm * units_per_mm, stretch.to_mm * units_per_mm};
+        }
     };
 
     void judge() {
         const bool apart = settings_.outside() && settings_.support_gap_layers > 0;
         std::vector<PrintedTrack> supports, object;
         if (apart || settings_.bed_only)
-            for (const PrintedTrack& track : above_->tracks) (is_external_support(track) ? supports : object).push_back(track);
+            for (const PrintedTrack& track : above_->tracks)
+                (is_external_support(track) ? supports : object).push_back(track);
         if (apart)
             add_part(std::move(object), {}, false);
         else
@@ -81,20 +96,25 @@ private:
             add_part(std::move(supports), [&settings = settings_](const PrintedLayer& below) {
                 if (!settings.bed_only) return counted_below(below.tracks, settings);
                 std::vector<PrintedTrack> holding;
-                std::copy_if(below.tracks.begin(), below.tracks.end(), std::back_inserter(holding), is_external_support);
+                std::copy_if(below.tracks.begin(), below.tracks.end(), std::back_inserter(holding),
+                             is_external_support);
                 return holding;
             }, false);
         if (over_gap_ && !over_gap_->hanging->tracks.empty())
-            add_part(over_gap_->hanging->tracks, [&settings = settings_, object = over_gap_->object](const PrintedLayer& below) {
-                std::vector<PrintedTrack> holding = counted_below(below.tracks, settings);
-                holding.insert(holding.end(), object.begin(), object.end());
-                return holding;
-            }, true);
+            add_part(
+                over_gap_->hanging->tracks,
+                [&settings = settings_, object = over_gap_->object](const PrintedLayer& below) {
+                    std::vector<PrintedTrack> holding = counted_below(below.tracks, settings);
+                    holding.insert(holding.end(), object.begin(), object.end());
+                    return holding;
+                },
+                true);
     }
     void add_part(std::vector<PrintedTrack> tracks, PrintJudgement::Holding holding, bool over_gap) {
         auto layer = std::make_shared<PrintedLayer>();
         layer->tracks = std::move(tracks);
-        PrintJudgement judgement = holding ? PrintJudgement(*layer, *held_.printed, settings_, std::move(holding)) : PrintJudgement(*layer, *held_.printed, settings_);
+        PrintJudgement judgement = holding ? PrintJudgement(*layer, *held_.printed, settings_, std::move(holding))
+                                           : PrintJudgement(*layer, *held_.printed, settings_);
         held_.parts.push_back({std::move(layer), std::move(judgement), over_gap});
     }
 
@@ -120,34 +140,44 @@ private:
         for (std::size_t k = 0; k < shown.size(); ++k) {
             if (judgement.supported(k) || shown[k]) continue;
             const PrintedTrack& track = tracks[k];
-            stretches.push_back({k, 0, std::hypot(track.b[0].get_d() - track.a[0].get_d(), track.b[1].get_d() - track.a[1].get_d())});
+            stretches.push_back(
+                {k, 0, std::hypot(track.b[0].get_d() - track.a[0].get_d(), track.b[1].get_d() - track.a[1].get_d())});
         }
-        std::stable_sort(stretches.begin(), stretches.end(), [](const OpenStretch& a, const OpenStretch& b) { return a.track < b.track; });
+        std::stable_sort(stretches.begin(), stretches.end(),
+                         [](const OpenStretch& a, const OpenStretch& b) { return a.track < b.track; });
         for (const OpenStretch& stretch : stretches) all.push_back({&tracks[stretch.track], stretch, over_gap});
     }
 
     /// Branches whose gap may be what lets something hang reach their junction from now on. How many walls are new.
     int close_gaps(const std::vector<Hanging>& open) {
-        // What hangs lies within half a width of its stretch. Walls whose centre line is farther than ρ from that could hold its rim only;
-        // closing their gaps too costs more than the patches that it saves.
+        // What hangs lies within half a width of its stretch. Walls whose centre line is farther than ρ from that could
+        // hold its rim only; closing their gaps too costs more than the patches that it saves.
         struct Place {
             Segment segment;
             double reach;
         };
         std::vector<Place> places;
         for (const Hanging& hanging : open) {
-            places.push_back({hanging.place(), hanging.track->width.get_d() / 2 * units_per_mm + static_cast<double>(settings_.support_radius + 4)});
+            places.push_back({hanging.place(), hanging.track->width.get_d() / 2 * units_per_mm +
+                                                   static_cast<double>(settings_.support_radius + 4)});
         }
         int closed = 0;
         for (auto [e, end] = edges(forest_); e != end; ++e) {
             if (forest_[*e].to_junction) continue;
-            for (const auto& [from, to] : {std::pair(source(*e, forest_), target(*e, forest_)), std::pair(target(*e, forest_), source(*e, forest_))}) {
+            for (const auto& [from, to] : {std::pair(source(*e, forest_), target(*e, forest_)),
+                                           std::pair(target(*e, forest_), source(*e, forest_))}) {
                 if (out_degree(from, forest_) < 2 && !forest_[from].root) continue;
                 // A gap takes the first width of the wall at most.
                 const Point a = forest_[from].at, d = forest_[to].at - a;
-                const double l = length(d), share = l > static_cast<double>(settings_.nozzle) ? static_cast<double>(settings_.nozzle) / l : 1;
-                const Segment gap{a, {a.x + round_to_lattice(share * static_cast<double>(d.x)), a.y + round_to_lattice(share * static_cast<double>(d.y))}};
-                if (!std::any_of(places.begin(), places.end(), [&](const Place& p) { return near(gap, p.segment, p.reach) && distance(gap, p.segment) <= p.reach; }))
+                const double l = length(d), share = l > static_cast<double>(settings_.nozzle)
+                                                        ? static_cast<double>(settings_.nozzle) / l
+                                                        : 1;
+                const Segment gap{a,
+                                  {a.x + round_to_lattice(share * static_cast<double>(d.x)),
+                                   a.y + round_to_lattice(share * static_cast<double>(d.y))}};
+                if (!std::any_of(places.begin(), places.end(), [&](const Place& p) {
+                        return near(gap, p.segment, p.reach) && distance(gap, p.segment) <= p.reach;
+                    }))
                     continue;
                 forest_[*e].to_junction = true;
                 ++closed;
@@ -159,7 +189,8 @@ private:
     }
     static bool near(const Segment& s, const Segment& t, double reach) {
         const auto apart = [reach](Unit a, Unit b, Unit c, Unit d) {
-            return static_cast<double>(std::min(c, d) - std::max(a, b)) > reach || static_cast<double>(std::min(a, b) - std::max(c, d)) > reach;
+            return static_cast<double>(std::min(c, d) - std::max(a, b)) > reach ||
+                   static_cast<double>(std::min(a, b) - std::max(c, d)) > reach;
         };
         return !apart(s.a.x, s.b.x, t.a.x, t.b.x) && !apart(s.a.y, s.b.y, t.a.y, t.b.y);
     }
@@ -174,12 +205,14 @@ private:
         if (tracks_) return;
         without_patches_ = std::move(held_.plan);
         tracks_.emplace(without_patches_);
-        if (beside_ && beside_->walls) gap_patches_.emplace(*beside_, walls_below_gap_, without_patches_, *tracks_, patches_, settings_);
+        if (beside_ && beside_->walls)
+            gap_patches_.emplace(*beside_, walls_below_gap_, without_patches_, *tracks_, patches_, settings_);
     }
     void lay_all_patches() {
         held_.plan = without_patches_;
         held_.patches = static_cast<int>(patches_.size());
-        held_.patch_length = lay_patches(patches_, *tracks_, held_.plan, settings_.nozzle, [&](const Segment& way) { return may_stand_outside(way); });
+        held_.patch_length = lay_patches(patches_, *tracks_, held_.plan, settings_.nozzle,
+                                         [&](const Segment& way) { return may_stand_outside(way); });
         held_.printed = std::make_shared<const PrintedLayer>(printed_layer(held_.plan));
     }
 
@@ -201,14 +234,17 @@ private:
     std::vector<Lane> material_near(const Segment& stretch) const {
         const Unit reach = 2 * settings_.nozzle + 2 * settings_.support_radius;
         Box box;
-        for (const Point p : {stretch.a, stretch.b}) box.add({p.x - reach, p.y - reach}), box.add({p.x + reach, p.y + reach});
+        for (const Point p : {stretch.a, stretch.b})
+            box.add({p.x - reach, p.y - reach}), box.add({p.x + reach, p.y + reach});
         std::vector<Lane> lanes;
         tracks_->segments().visit(box, [&](std::uint32_t k) {
             const PlanTracks::Place place = tracks_->place(k);
-            lanes.push_back({tracks_->segments().segments()[k], without_patches_.tracks[place.track].paths[place.path].width});
+            lanes.push_back(
+                {tracks_->segments().segments()[k], without_patches_.tracks[place.track].paths[place.path].width});
         });
         for (const Patch& patch : patches_)
-            if (near(stretch, patch.segment, static_cast<double>(reach))) lanes.push_back({patch.segment, settings_.nozzle});
+            if (near(stretch, patch.segment, static_cast<double>(reach)))
+                lanes.push_back({patch.segment, settings_.nozzle});
         return lanes;
     }
 
@@ -255,8 +291,9 @@ private:
         }
     }
 
-    /// Where a patch would hold up what hangs: in the first half of the rounds a dot as near to the tracks as can be; what that does not reach,
-    /// and what sampling missed, in another way. Nothing where what is there, or a patch of this round, may hold it up.
+    /// Where a patch would hold up what hangs: in the first half of the rounds a dot as near to the tracks as can be;
+    /// what that does not reach, and what sampling missed, in another way. Nothing where what is there, or a patch of
+    /// this round, may hold it up.
     std::optional<Segment> place_under(const Hanging& hanging, int round, std::size_t before) {
         const Segment s = hanging.place();
         const std::optional<PlacedDot> dot = round < rounds / 2 ? place(hanging) : std::nullopt;
@@ -269,17 +306,21 @@ private:
     }
 
     bool held_since(std::size_t before, const Segment& s) const {
-        return std::any_of(patches_.begin() + static_cast<std::ptrdiff_t>(before), patches_.end(), [&](const Patch& patch) {
-            return compare_distance(s.a, patch.segment, step()) <= 0 && compare_distance(s.b, patch.segment, step()) <= 0;
-        });
+        return std::any_of(patches_.begin() + static_cast<std::ptrdiff_t>(before), patches_.end(),
+                           [&](const Patch& patch) {
+                               return compare_distance(s.a, patch.segment, step()) <= 0 &&
+                                      compare_distance(s.b, patch.segment, step()) <= 0;
+                           });
     }
 
-    /// What hangs, one layer lower: its ends moved by up to ρ towards material; where it is short, a dot that both its ends can reach.
+    /// What hangs, one layer lower: its ends moved by up to ρ towards material; where it is short, a dot that both its
+    /// ends can reach.
     Segment lowered(const Segment& s, std::size_t before) const {
         const auto moved = [&](Point p, double most) {
             const Point near = nearest_material(p, before), way = near - p;
             const double d = length(way), t = d > most ? most / d : 1;
-            return p + Point{round_to_lattice(t * static_cast<double>(way.x)), round_to_lattice(t * static_cast<double>(way.y))};
+            return p + Point{round_to_lattice(t * static_cast<double>(way.x)),
+                             round_to_lattice(t * static_cast<double>(way.y))};
         };
         const Unit half = round_to_lattice(length(s) / 2) + 2;
         if (half > step()) return {moved(s.a, static_cast<double>(step())), moved(s.b, static_cast<double>(step()))};
@@ -289,13 +330,19 @@ private:
     Unit step() const { return settings_.support_radius - 2; }
 
     /// With a removal gap only where walls may, and off the object's patches.
-    bool may_stand_outside(const Segment& s) const { return gap_patches_ ? gap_patches_->may_stand(s) : beside_ != nullptr; }
+    bool may_stand_outside(const Segment& s) const {
+        return gap_patches_ ? gap_patches_->may_stand(s) : beside_ != nullptr;
+    }
 
-    /// With a gap of layers: what hangs outside the outline within reach of the object's slice is the slice's to hold up, all else is held up farther down.
+    /// With a gap of layers: what hangs outside the outline within reach of the object's slice is the slice's to hold
+    /// up, all else is held up farther down.
     void patch_object_under_overhangs() {
         PrintedLayer object;
-        std::remove_copy_if(above_->tracks.begin(), above_->tracks.end(), std::back_inserter(object.tracks), is_external_support);
-        const PrintJudgement judgement(object, *held_.printed, settings_, [&](const PrintedLayer& below) { return counted_below(below.tracks, settings_); });
+        std::remove_copy_if(above_->tracks.begin(), above_->tracks.end(), std::back_inserter(object.tracks),
+                            is_external_support);
+        const PrintJudgement judgement(object, *held_.printed, settings_, [&](const PrintedLayer& below) {
+            return counted_below(below.tracks, settings_);
+        });
         std::vector<Hanging> hanging;
         append_open(judgement, false, hanging);
         if (hanging.empty()) return;
@@ -329,8 +376,8 @@ private:
 
 }  // namespace
 
-HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings, const Cavity* outside,
-                     const PrintOverGap* over_gap, const Region* walls_below_gap) {
+HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings,
+                     const Cavity* outside, const PrintOverGap* over_gap, const Region* walls_below_gap) {
     return Holder(std::move(shell), forest, above, outside, over_gap, walls_below_gap, settings).run();
 }
 

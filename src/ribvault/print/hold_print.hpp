@@ -39,24 +39,27 @@ struct HeldLayer {
     std::vector<Segment> patch_tracks;  ///< their centre lines; dots as segments of no length
 };
 
-/// Completes `shell`, the plan of layer i's perimeters and covers, with the tracks of S_i (`forest`) so that every point of
-/// `above`, the print of layer i + 1 (nullptr: there is none), that lies inside the outline of this layer has material
-/// within ρ (verify/outside_outline.hpp). `above` and `settings` must outlive the judgement.
+/// Completes `shell`, the plan of layer i's perimeters and covers, with the tracks of S_i (`forest`) so that every
+/// point of `above`, the print of layer i + 1 (nullptr: there is none), that lies inside the outline of this layer has
+/// material within ρ (verify/outside_outline.hpp). `above` and `settings` must outlive the judgement.
 ///
 /// First with the gaps of Section 4.4. Where the verifier finds something of `above` that these leave unsupported, the
-/// branches nearby are printed up to their junction (settings.gaps == Gaps::proved; with Gaps::paper nothing is done and the
-/// verdict will say what the gaps cost, with Gaps::none there are none from the start). Where that is not enough (where the
-/// tracks of the shell leave a place open that B_i has, or the root of a vanished tree, which Gaps::proved does not print, held something up),
-/// patches follow: the dot nearest to the tracks that holds up all that hangs there (print/place_dot.hpp) or, where there is none and in the last
-/// rounds of mending, what hangs, one layer lower, each end moved by up to ρ towards material, so that what the patches need below them
-/// shrinks to nothing like a wall's tip does. They are printed with the tracks they touch (print/lay_patches.hpp).
-/// Patches lie inside the outline. Deterministic.
+/// branches nearby are printed up to their junction (settings.gaps == Gaps::proved; with Gaps::paper nothing is done
+/// and the verdict will say what the gaps cost, with Gaps::none there are none from the start). Where that is not
+/// enough (where the tracks of the shell leave a place open that B_i has, or the root of a vanished tree, which
+/// Gaps::proved does not print, held something up), patches follow: the dot nearest to the tracks that holds up all
+/// that hangs there (print/place_dot.hpp) or, where there is none and in the last rounds of mending, what hangs, one
+/// layer lower, each end moved by up to ρ towards material, so that what the patches need below them shrinks to nothing
+/// like a wall's tip does. They are printed with the tracks they touch (print/lay_patches.hpp). Patches lie inside the
+/// outline. Deterministic.
 ///
 /// With external supports (settings.outside()) all of `above` counts, inside the outline or not, and patches may lie
-/// outside it, where `outside` (slice/outside.hpp) lets walls stand. Where they stand on the bed alone, or leave a gap of layers, external supports are judged
-/// over what may hold them up; with a gap, what hangs over `over_gap` counts in place of what hangs over this layer. `walls_below_gap`: where supports may stand that hold up
-/// through the gap what hangs over this layer (nullptr: not known): what they can reach needs no patches here.
+/// outside it, where `outside` (slice/outside.hpp) lets walls stand. Where they stand on the bed alone, or leave a gap
+/// of layers, external supports are judged over what may hold them up; with a gap, what hangs over `over_gap` counts in
+/// place of what hangs over this layer. `walls_below_gap`: where supports may stand that hold up through the gap what
+/// hangs over this layer (nullptr: not known): what they can reach needs no patches here.
 HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings,
-                     const Cavity* outside = nullptr, const PrintOverGap* over_gap = nullptr, const Region* walls_below_gap = nullptr);
+                     const Cavity* outside = nullptr, const PrintOverGap* over_gap = nullptr,
+                     const Region* walls_below_gap = nullptr);
 
 }  // namespace ribvault

@@ -65,14 +65,23 @@ void take_bed(PrinterSettings& printer, const std::string& shape) {
 /// PrusaSlicer's placeholders as ours; nothing when the text uses others, or expressions.
 std::optional<std::string> translated(std::string text) {
     static const std::vector<std::pair<const char*, const char*>> names{
-        {"first_layer_temperature", "nozzle_temperature"}, {"first_layer_bed_temperature", "bed_temperature"},
-        {"temperature", "nozzle_temperature"}, {"bed_temperature", "bed_temperature"}, {"layer_height", "layer_height"},
-        {"first_layer_height", "first_layer_height"}, {"nozzle_diameter", "nozzle_diameter"}, {"filament_diameter", "filament_diameter"},
-        {"retract_length", "retraction"}, {"max_print_height", "bed_z"}, {"travel_speed", "travel_speed"}, {"total_layer_count", "layer_count"}};
+        {"first_layer_temperature", "nozzle_temperature"},
+        {"first_layer_bed_temperature", "bed_temperature"},
+        {"temperature", "nozzle_temperature"},
+        {"bed_temperature", "bed_temperature"},
+        {"layer_height", "layer_height"},
+        {"first_layer_height", "first_layer_height"},
+        {"nozzle_diameter", "nozzle_diameter"},
+        {"filament_diameter", "filament_diameter"},
+        {"retract_length", "retraction"},
+        {"max_print_height", "bed_z"},
+        {"travel_speed", "travel_speed"},
+        {"total_layer_count", "layer_count"}};
     for (const auto& [theirs, ours] : names)
         for (const char* index : {"", "[0]", "_0", "[initial_extruder]", "[initial_tool]"})
             for (const auto& [open, close] : {std::pair("[", "]"), std::pair("{", "}")}) {
-                const std::string from = std::string(open) + theirs + index + close, to = std::string("\x01") + ours + "\x02";
+                const std::string from = std::string(open) + theirs + index + close,
+                                  to = std::string("\x01") + ours + "\x02";
                 for (std::size_t at; (at = text.find(from)) != std::string::npos;) text.replace(at, from.size(), to);
             }
     if (text.find_first_of("[]{}") != std::string::npos) return std::nullopt;
@@ -127,25 +136,36 @@ const std::map<std::string, Field>& fields() {
              }},
             {"seam_position",
              [](Target to, const std::string& v) {
-                 if (v == "aligned" || v == "rear") to.t.seam = Seam::aligned;
-                 else if (v == "nearest") to.t.seam = Seam::nearest;
-                 else throw Ignored{"seams are aligned, at a corner or nearest here"};
+                 if (v == "aligned" || v == "rear")
+                     to.t.seam = Seam::aligned;
+                 else if (v == "nearest")
+                     to.t.seam = Seam::nearest;
+                 else
+                     throw Ignored{"seams are aligned, at a corner or nearest here"};
              }},
             {"top_fill_pattern",
              [](Target to, const std::string& v) {
-                 if (v == "rectilinear" || v == "alignedrectilinear") to.t.covers = CoverPattern::zigzag;
-                 else if (v == "monotonic" || v == "monotoniclines") to.t.covers = CoverPattern::monotonic;
-                 else if (v == "concentric") to.t.covers = CoverPattern::concentric;
-                 else throw Ignored{"covers are rectilinear, monotonic or concentric here"};
+                 if (v == "rectilinear" || v == "alignedrectilinear")
+                     to.t.covers = CoverPattern::zigzag;
+                 else if (v == "monotonic" || v == "monotoniclines")
+                     to.t.covers = CoverPattern::monotonic;
+                 else if (v == "concentric")
+                     to.t.covers = CoverPattern::concentric;
+                 else
+                     throw Ignored{"covers are rectilinear, monotonic or concentric here"};
              }},
             {"bed_shape", [](Target to, const std::string& v) { take_bed(to.p, v); }},
             {"max_print_height", printer_number(&P::bed_z)},
             {"gcode_flavor",
              [](Target to, const std::string& v) {
-                 if (v == "marlin" || v == "marlin2" || v == "reprap") to.p.flavour = Flavour::marlin;
-                 else if (v == "klipper") to.p.flavour = Flavour::klipper;
-                 else if (v == "reprapfirmware") to.p.flavour = Flavour::reprapfirmware;
-                 else throw Ignored{"we write for Marlin, Klipper and RepRapFirmware"};
+                 if (v == "marlin" || v == "marlin2" || v == "reprap")
+                     to.p.flavour = Flavour::marlin;
+                 else if (v == "klipper")
+                     to.p.flavour = Flavour::klipper;
+                 else if (v == "reprapfirmware")
+                     to.p.flavour = Flavour::reprapfirmware;
+                 else
+                     throw Ignored{"we write for Marlin, Klipper and RepRapFirmware"};
              }},
             {"filament_diameter", printer_number(&P::filament_diameter)},
             {"temperature", temperature(&P::nozzle_temperature)},
@@ -161,13 +181,20 @@ const std::map<std::string, Field>& fields() {
             {"start_gcode", [](Target to, const std::string& v) { take_gcode(to.p.start_gcode, v); }},
             {"end_gcode", [](Target to, const std::string& v) { take_gcode(to.p.end_gcode, v); }},
             {"machine_limits_usage", [](Target to, const std::string& v) { to.p.write_limits = v == "emit_to_gcode"; }},
-            {"machine_max_acceleration_extruding", [](Target to, const std::string& v) { to.p.limits.print_acceleration = number(v); }},
-            {"machine_max_acceleration_retracting", [](Target to, const std::string& v) { to.p.limits.retract_acceleration = number(v); }},
-            {"machine_max_acceleration_travel", [](Target to, const std::string& v) { to.p.limits.travel_acceleration = number(v); }}};
+            {"machine_max_acceleration_extruding",
+             [](Target to, const std::string& v) { to.p.limits.print_acceleration = number(v); }},
+            {"machine_max_acceleration_retracting",
+             [](Target to, const std::string& v) { to.p.limits.retract_acceleration = number(v); }},
+            {"machine_max_acceleration_travel",
+             [](Target to, const std::string& v) { to.p.limits.travel_acceleration = number(v); }}};
         for (std::size_t a = 0; a < 4; ++a) {
             const std::string axis(1, "xyze"[a]);
-            f["machine_max_feedrate_" + axis] = [a](Target to, const std::string& v) { to.p.limits.speed[a] = number(v); };
-            f["machine_max_acceleration_" + axis] = [a](Target to, const std::string& v) { to.p.limits.acceleration[a] = number(v); };
+            f["machine_max_feedrate_" + axis] = [a](Target to, const std::string& v) {
+                to.p.limits.speed[a] = number(v);
+            };
+            f["machine_max_acceleration_" + axis] = [a](Target to, const std::string& v) {
+                to.p.limits.acceleration[a] = number(v);
+            };
             f["machine_max_jerk_" + axis] = [a](Target to, const std::string& v) { to.p.limits.jerk[a] = number(v); };
         }
         return f;
@@ -176,7 +203,8 @@ const std::map<std::string, Field>& fields() {
 }
 
 /// The entries of a section after those it inherits.
-void append_inherited(const std::vector<IniEntry>& all, const std::string& section, std::set<std::string>& visited, std::vector<IniEntry>& chosen) {
+void append_inherited(const std::vector<IniEntry>& all, const std::string& section, std::set<std::string>& visited,
+                      std::vector<IniEntry>& chosen) {
     if (!visited.insert(section).second) return;
     const std::string kind = section.substr(0, section.find(':') + 1);
     for (const IniEntry& e : all) {
@@ -210,8 +238,8 @@ std::vector<IniEntry> chosen_entries(const std::vector<IniEntry>& all) {
 
 }  // namespace
 
-ImportedConfig import_prusaslicer(std::string_view text, const std::string& name, Settings& settings, TrackSettings& tracks,
-                                  PrinterSettings& printer) {
+ImportedConfig import_prusaslicer(std::string_view text, const std::string& name, Settings& settings,
+                                  TrackSettings& tracks, PrinterSettings& printer) {
     std::map<std::string, IniEntry> last;  // a later entry replaces what was inherited
     for (IniEntry& e : chosen_entries(read_ini(text, name))) last[e.key] = std::move(e);
     ImportedConfig imported;
@@ -230,10 +258,12 @@ ImportedConfig import_prusaslicer(std::string_view text, const std::string& name
             throw Error(ErrorKind::usage, name + ":" + std::to_string(entry.line) + ": " + key + ": " + error.what());
         }
     };
-    if (const auto nozzle = last.find("nozzle_diameter"); nozzle != last.end()) take(nozzle->first, nozzle->second);  // others depend on it
+    if (const auto nozzle = last.find("nozzle_diameter"); nozzle != last.end())
+        take(nozzle->first, nozzle->second);  // others depend on it
     for (const auto& [key, entry] : last)
         if (key != "nozzle_diameter") take(key, entry);
-    if (imported.taken.empty()) throw Error(ErrorKind::usage, name + ": no setting that we know; is it a PrusaSlicer config or bundle?");
+    if (imported.taken.empty())
+        throw Error(ErrorKind::usage, name + ": no setting that we know; is it a PrusaSlicer config or bundle?");
     if (!last.contains("name")) printer.name = "imported from PrusaSlicer";
     return imported;
 }

@@ -19,11 +19,11 @@ struct ImportedConfig {
 /// Takes the fields we know from a config; all others are named in the result. Exact lengths stay exact.
 ///
 /// A config without sections, as "Export Config" writes it, is taken whole. Of a bundle the presets that its [presets]
-/// section names, otherwise the last of each kind ([print:...], [filament:...], [printer:...]) whose name has no stars; what
-/// they inherit from other presets of the bundle comes first. Start and end G-code are taken with the placeholders that we
-/// know translated; with others or with expressions they are ignored.
-/// Throws Error (usage) with name, line and key when a value that we know is no number, or when nothing is known.
-ImportedConfig import_prusaslicer(std::string_view text, const std::string& name, Settings& settings, TrackSettings& tracks,
-                                  PrinterSettings& printer);
+/// section names, otherwise the last of each kind ([print:...], [filament:...], [printer:...]) whose name has no stars;
+/// what they inherit from other presets of the bundle comes first. Start and end G-code are taken with the placeholders
+/// that we know translated; with others or with expressions they are ignored. Throws Error (usage) with name, line and
+/// key when a value that we know is no number, or when nothing is known.
+ImportedConfig import_prusaslicer(std::string_view text, const std::string& name, Settings& settings,
+                                  TrackSettings& tracks, PrinterSettings& printer);
 
 }  // namespace ribvault

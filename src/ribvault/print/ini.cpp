@@ -25,7 +25,8 @@ std::vector<IniEntry> read_ini(std::string_view text, const std::string& name) {
         ++number;
         if (line.empty() || line[0] == '#' || line[0] == ';') continue;
         const auto refuse = [&](const char* why) {
-            throw Error(ErrorKind::usage, name + ":" + std::to_string(number) + ": '" + std::string(line.substr(0, 60)) + "' " + why);
+            throw Error(ErrorKind::usage,
+                        name + ":" + std::to_string(number) + ": '" + std::string(line.substr(0, 60)) + "' " + why);
         };
         if (line[0] == '[') {
             if (line.back() != ']') refuse("is no section; it needs a ']' at its end");
@@ -34,7 +35,8 @@ std::vector<IniEntry> read_ini(std::string_view text, const std::string& name) {
         }
         const auto equals = line.find('=');
         if (equals == std::string_view::npos || equals == 0) refuse("is no setting; write 'key = value'");
-        entries.push_back({section, std::string(trimmed(line.substr(0, equals))), std::string(trimmed(line.substr(equals + 1))), number});
+        entries.push_back({section, std::string(trimmed(line.substr(0, equals))),
+                           std::string(trimmed(line.substr(equals + 1))), number});
     }
     return entries;
 }

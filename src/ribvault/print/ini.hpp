@@ -13,9 +13,9 @@ struct IniEntry {
     int line = 0;  ///< from 1
 };
 
-/// All entries of a text in its order. Lines that are empty or begin with `#` or `;` are comments; blanks around key and
-/// value do not count. `name`: what to call the text in errors.
-/// Throws Error (usage) with name and line number for a line that is none of these.
+/// All entries of a text in its order. Lines that are empty or begin with `#` or `;` are comments; blanks around key
+/// and value do not count. `name`: what to call the text in errors. Throws Error (usage) with name and line number for
+/// a line that is none of these.
 std::vector<IniEntry> read_ini(std::string_view text, const std::string& name);
 
 /// `\n`, `\t`, `\"` and `\\` as the characters they stand for; outer quotes taken off.

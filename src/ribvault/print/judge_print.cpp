@@ -27,12 +27,14 @@ std::vector<PrintedTrack> difference(const std::vector<PrintedTrack>& one, const
     std::vector<PrintedTrack> left(from, one.end()), right(begin, other.end()), result;
     std::sort(left.begin(), left.end(), earlier);
     std::sort(right.begin(), right.end(), earlier);
-    std::set_symmetric_difference(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(result), earlier);
+    std::set_symmetric_difference(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(result),
+                                  earlier);
     return result;
 }
 
 /// Indices (increasing) of at least those of `tracks` whose stadium comes within ρ of the stadium of one of `others`.
-std::vector<std::size_t> those_near(const std::vector<PrintedTrack>& tracks, const std::vector<PrintedTrack>& others, double rho) {
+std::vector<std::size_t> those_near(const std::vector<PrintedTrack>& tracks, const std::vector<PrintedTrack>& others,
+                                    double rho) {
     const std::vector<verify::PreparedTrack> here = verify::prepare(tracks), there = verify::prepare(others);
     const double margin = verify::margin_of(verify::largest_coordinate(here, there, rho));
     const verify::TrackGrid grid(there, rho + 4 * margin);
@@ -60,7 +62,9 @@ std::array<double, 2> sum(const std::vector<std::array<double, 2>>& lengths) {
 
 }  // namespace
 
-bool is_external_support(const PrintedTrack& track) { return track.feature == static_cast<int>(TrackKind::external_support); }
+bool is_external_support(const PrintedTrack& track) {
+    return track.feature == static_cast<int>(TrackKind::external_support);
+}
 
 std::vector<PrintedTrack> counted_below(std::vector<PrintedTrack> tracks, const Settings& settings) {
     const Rational wider = 2 * Rational(printed_length(settings.reach_of_object() - settings.support_radius));
@@ -87,7 +91,8 @@ PrintJudgement::PrintJudgement(const PrintedLayer& above, const PrintedLayer& be
     look_at_all();
 }
 
-PrintJudgement::PrintJudgement(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings, Holding holding)
+PrintJudgement::PrintJudgement(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings,
+                               Holding holding)
     : above_(&above), below_(&below), settings_(&settings), holding_(std::move(holding)) {
     look_at_all();
 }
@@ -134,8 +139,10 @@ void PrintJudgement::look(const std::vector<std::size_t>& which, std::vector<Pri
     stages_ += verdict.stages;
     std::erase_if(open_, [&](const OpenStretch& s) { return std::binary_search(which.begin(), which.end(), s.track); });
     for (std::size_t k = 0; k < which.size(); ++k) supported_[which[k]] = verdict.track_supported[k];
-    for (const OpenStretch& stretch : verdict.stretches) open_.push_back({which[stretch.track], stretch.from_mm, stretch.to_mm});
-    std::stable_sort(open_.begin(), open_.end(), [](const OpenStretch& a, const OpenStretch& b) { return a.track < b.track; });
+    for (const OpenStretch& stretch : verdict.stretches)
+        open_.push_back({which[stretch.track], stretch.from_mm, stretch.to_mm});
+    std::stable_sort(open_.begin(), open_.end(),
+                     [](const OpenStretch& a, const OpenStretch& b) { return a.track < b.track; });
 }
 
 PrintVerdict PrintJudgement::verdict() const {
@@ -150,7 +157,8 @@ PrintVerdict PrintJudgement::verdict() const {
         options.areas = options.regions = false;
         PrintedLayer upper, lower;
         upper.tracks = chosen(above_->tracks, hanging), lower.tracks = lower_;
-        verdict.unsupported_mm = sum(verify_printed(upper, lower, printed_length(settings_->support_radius), options).unsupported_length);
+        verdict.unsupported_mm =
+            sum(verify_printed(upper, lower, printed_length(settings_->support_radius), options).unsupported_length);
     }
     if (!open_.empty()) {
         const Segment place = place_of(above_->tracks[open_.front().track], open_.front());

@@ -10,13 +10,14 @@
 
 namespace ribvault {
 
-/// What of `above`, the print of layer i + 1, the print of layer i holds up, decided exactly and for all of it. Without external
-/// supports `above` outside the outline of the layer below is not judged by `open` (verify/outside_outline.hpp); with such that leave a gap of layers
-/// it is not judged either, for it is held up farther down.
+/// What of `above`, the print of layer i + 1, the print of layer i holds up, decided exactly and for all of it. Without
+/// external supports `above` outside the outline of the layer below is not judged by `open`
+/// (verify/outside_outline.hpp); with such that leave a gap of layers it is not judged either, for it is held up
+/// farther down.
 ///
-/// A change of the layer below needs no look at all of `above`: whether a track is held up depends on nothing but the tracks below that
-/// come within half its width + ρ of its centre line. When those are the same as before, so is the answer.
-/// Precondition: `above`, the last layer below and `settings` outlive it.
+/// A change of the layer below needs no look at all of `above`: whether a track is held up depends on nothing but the
+/// tracks below that come within half its width + ρ of its centre line. When those are the same as before, so is the
+/// answer. Precondition: `above`, the last layer below and `settings` outlive it.
 class PrintJudgement {
 public:
     PrintJudgement(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings);
@@ -24,16 +25,17 @@ public:
     using Holding = std::function<std::vector<PrintedTrack>(const PrintedLayer& below)>;
     PrintJudgement(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings, Holding holding);
 
-    /// Brings everything up to date with `below` in place of the layer that was there. What changed is found here, by comparing all
-    /// tracks of both.
+    /// Brings everything up to date with `below` in place of the layer that was there. What changed is found here, by
+    /// comparing all tracks of both.
     void change_below(const PrintedLayer& below);
 
     /// Where something of `above` inside the outline is not held up, by increasing track.
     const std::vector<OpenStretch>& open() const { return open_; }
     bool supported(std::size_t track) const { return supported_[track] != 0; }
 
-    /// The verdict on all of `above`. With external supports all of it must be held up, and nothing is told apart as external; with a
-    /// removal gap the object's tracks hold up what is within settings.reach_of_object() of them, and external_mm is what is farther than ρ.
+    /// The verdict on all of `above`. With external supports all of it must be held up, and nothing is told apart as
+    /// external; with a removal gap the object's tracks hold up what is within settings.reach_of_object() of them, and
+    /// external_mm is what is farther than ρ.
     PrintVerdict verdict() const;
 
     const PrintedLayer& above() const { return *above_; }
@@ -58,8 +60,8 @@ private:
 PrintVerdict judge_print(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings);
 
 bool is_external_support(const PrintedTrack& track);
-/// A layer's tracks as they count for what lies on them: with a removal gap the object's are as much wider as it holds up what is within it
-/// (Settings::reach_of_object).
+/// A layer's tracks as they count for what lies on them: with a removal gap the object's are as much wider as it holds
+/// up what is within it (Settings::reach_of_object).
 std::vector<PrintedTrack> counted_below(std::vector<PrintedTrack> tracks, const Settings& settings);
 
 /// The place of a stretch of `track` as a segment of the lattice.

@@ -33,7 +33,9 @@ public:
         insert_spurs();
         prolong_tracks();
         for (const Way& way : ways_)
-            if (way.leads == Leads::alone) plan_.tracks.push_back({{{way.kind, width_, false, way.points, way.on_track}}, Entry::either_end, no_stop});
+            if (way.leads == Leads::alone)
+                plan_.tracks.push_back(
+                    {{{way.kind, width_, false, way.points, way.on_track}}, Entry::either_end, no_stop});
         return round_to_lattice(added_);
     }
 
@@ -54,11 +56,13 @@ private:
     using Step = std::tuple<std::size_t, std::size_t, std::size_t>;
 
     void add(Way way) {
-        added_ += (way.leads == Leads::aside ? 2 : 1) * (way.points.size() > 1 ? length(way.points[1] - way.points[0]) : 0);
+        added_ +=
+            (way.leads == Leads::aside ? 2 : 1) * (way.points.size() > 1 ? length(way.points[1] - way.points[0]) : 0);
         ways_.push_back(std::move(way));
     }
     void lay(TrackKind kind, const Segment& s, bool on_track = false) {
-        add({kind, is_tiny_step(s.a, s.b) ? std::vector<Point>{s.a} : std::vector<Point>{s.a, s.b}, Leads::alone, on_track});
+        add({kind, is_tiny_step(s.a, s.b) ? std::vector<Point>{s.a} : std::vector<Point>{s.a, s.b}, Leads::alone,
+             on_track});
     }
 
     bool join(const Patch& patch) {
@@ -66,7 +70,9 @@ private:
         if (on_.segments().empty()) return false;
         const NearestSegment::Hit hit = on_.segments().nearest(dot);
         Point from;
-        if (Way* way = nearest_way(patch, from); way && compare(SquaredDistance{squared_length(dot - from), 1}, hit.distance) < 0) return lead_on(*way, from, dot);
+        if (Way* way = nearest_way(patch, from);
+            way && compare(SquaredDistance{squared_length(dot - from), 1}, hit.distance) < 0)
+            return lead_on(*way, from, dot);
         const Segment& step = on_.segments().segments()[hit.index];
         const auto [t, p, k] = on_.place(hit.index);
         const PlannedTrack& track = plan_.tracks[t];
@@ -88,7 +94,8 @@ private:
                     return true;
                 }
         }
-        if (is_support(path.kind) && !path.closed && path.width == width_ && path.points.size() > 1 && 2 * way <= dot_) {
+        if (is_support(path.kind) && !path.closed && path.width == width_ && path.points.size() > 1 &&
+            2 * way <= dot_) {
             spurs_[{t, p, k}].push_back({length(from - step.a), ways_.size()});
             add({patch.kind, {from, dot}, Leads::aside, false, t});
         } else {
@@ -113,14 +120,17 @@ private:
         return true;
     }
 
-    bool is_open(TrackKind kind, const Segment& way) const { return !open_ || kind != TrackKind::external_support || open_(way); }
+    bool is_open(TrackKind kind, const Segment& way) const {
+        return !open_ || kind != TrackKind::external_support || open_(way);
+    }
 
     /// `to`, or on the way there what is just far enough for a step.
     static Point beyond_tiny(Point from, Point to) {
         if (!is_tiny_step(from, to)) return to;
         const Point way = to - from;
         const double t = 1.01 * static_cast<double>(shortest_step) / length(way);
-        return from + Point{round_to_lattice(t * static_cast<double>(way.x)), round_to_lattice(t * static_cast<double>(way.y))};
+        return from + Point{round_to_lattice(t * static_cast<double>(way.x)),
+                            round_to_lattice(t * static_cast<double>(way.y))};
     }
 
     /// Of the same kind; `at`: its point nearest to the patch.
@@ -131,7 +141,8 @@ private:
             if (way.kind != patch.kind) continue;
             for (std::size_t k = way.points.size() == 1 ? 0 : 1; k < way.points.size(); ++k) {
                 const Segment s{way.points[k == 0 ? 0 : k - 1], way.points[k]};
-                if (const double d = squared_distance(patch.segment.a, s).value(); d < least) least = d, nearest = &way, at = nearest_point(patch.segment.a, s);
+                if (const double d = squared_distance(patch.segment.a, s).value(); d < least)
+                    least = d, nearest = &way, at = nearest_point(patch.segment.a, s);
             }
         }
         return nearest;
@@ -170,7 +181,8 @@ private:
             const bool same = path.kind == way.kind && path.width == width_;
             if (!at_end) std::reverse(way.points.begin(), way.points.end());
             if (same)
-                path.points.insert(at_end ? path.points.end() : path.points.begin(), way.points.begin() + (at_end ? 1 : 0), way.points.end() - (at_end ? 0 : 1));
+                path.points.insert(at_end ? path.points.end() : path.points.begin(),
+                                   way.points.begin() + (at_end ? 1 : 0), way.points.end() - (at_end ? 0 : 1));
             else
                 paths.insert(at_end ? paths.end() : paths.begin(), ToolPath{way.kind, width_, false, way.points});
         }
@@ -191,7 +203,8 @@ private:
 
 PlanTracks::PlanTracks(const LayerPlan& plan) : segments_(segments_of(plan, places_)) {}
 
-Unit lay_patches(const std::vector<Patch>& patches, const PlanTracks& on, LayerPlan& plan, Unit width, const std::function<bool(const Segment&)>& open) {
+Unit lay_patches(const std::vector<Patch>& patches, const PlanTracks& on, LayerPlan& plan, Unit width,
+                 const std::function<bool(const Segment&)>& open) {
     return PatchLayer(on, plan, width, open).run(patches);
 }
 

@@ -6,7 +6,8 @@
 
 namespace ribvault {
 
-/// A track that is printed without a stop: one path, or, where the width varies, several that follow each other end to end.
+/// A track that is printed without a stop: one path, or, where the width varies, several that follow each other end to
+/// end.
 struct PlannedTrack {
     std::vector<ToolPath> paths;      ///< at least one; all of one stage (print/order_paths.hpp)
     Entry entry = Entry::fixed;       ///< where the nozzle may enter it

@@ -52,7 +52,8 @@ struct Position {
 };
 
 double distance(Position p, const BoostSegment& s) {
-    const double dx = s.high.x - double{0} - s.low.x, dy = s.high.y - double{0} - s.low.y, tx = p.x - s.low.x, ty = p.y - s.low.y;
+    const double dx = s.high.x - double{0} - s.low.x, dy = s.high.y - double{0} - s.low.y, tx = p.x - s.low.x,
+                 ty = p.y - s.low.y;
     const double square = dx * dx + dy * dy;
     const double t = square > 0 ? std::clamp((tx * dx + ty * dy) / square, 0.0, 1.0) : 0;
     return std::hypot(tx - t * dx, ty - t * dy);
@@ -96,7 +97,9 @@ struct Axis {
 
 std::vector<BoostSegment> border_of(const Region& area, Point origin) {
     std::vector<BoostSegment> border;
-    const auto local = [&](Point p) { return BoostPoint{static_cast<int>(p.x - origin.x), static_cast<int>(p.y - origin.y)}; };
+    const auto local = [&](Point p) {
+        return BoostPoint{static_cast<int>(p.x - origin.x), static_cast<int>(p.y - origin.y)};
+    };
     for (const Contour& c : area)
         for (std::size_t i = 0; i < c.size(); ++i)
             if (c[i] != c[(i + 1) % c.size()]) border.push_back({local(c[i]), local(c[(i + 1) % c.size()])});
@@ -112,7 +115,9 @@ Axis axis_of(const std::vector<BoostSegment>& border, double least, double most,
     bp::construct_voronoi(border.begin(), border.end(), &diagram);
     Axis axis;
     std::map<const Diagram::vertex_type*, Node> nodes;
-    const auto radius = [&](const Diagram::edge_type& edge, Position p) { return distance(p, border[edge.cell()->source_index()]); };
+    const auto radius = [&](const Diagram::edge_type& edge, Position p) {
+        return distance(p, border[edge.cell()->source_index()]);
+    };
     for (std::size_t e = 0; e < diagram.edges().size(); e += 2) {
         const Diagram::edge_type& edge = diagram.edges()[e];
         if (!edge.is_primary() || !edge.is_finite()) continue;
@@ -130,12 +135,14 @@ Axis axis_of(const std::vector<BoostSegment>& border, double least, double most,
         };
         const Node na = node(edge.vertex0(), a, ra, b, rb), nb = node(edge.vertex1(), b, rb, a, ra);
         // Where the width changes, in steps of at most `step`.
-        const auto pieces = static_cast<std::size_t>(std::ceil(std::max(1.0, 2 * std::fabs(axis.radius[na] - axis.radius[nb]) / step)));
+        const auto pieces =
+            static_cast<std::size_t>(std::ceil(std::max(1.0, 2 * std::fabs(axis.radius[na] - axis.radius[nb]) / step)));
         Node before = na;
         for (std::size_t k = 1; k < pieces; ++k) {
             const double t = static_cast<double>(k) / static_cast<double>(pieces);
             const auto mix = [t](double from, double to) { return from + t * (to - from); };
-            const Node next = axis.add({mix(axis.at[na].x, axis.at[nb].x), mix(axis.at[na].y, axis.at[nb].y)}, mix(axis.radius[na], axis.radius[nb]));
+            const Node next = axis.add({mix(axis.at[na].x, axis.at[nb].x), mix(axis.at[na].y, axis.at[nb].y)},
+                                       mix(axis.radius[na], axis.radius[nb]));
             axis.join(before, next);
             before = next;
         }
@@ -191,7 +198,9 @@ std::vector<PlannedTrack> medial_tracks(const Region& area, Unit width, TrackKin
     const auto emit = [&](const std::vector<Node>& chain) {
         if (length_of(axis, chain) < d) return;
         PlannedTrack track{{}, Entry::either_end, no_stop};
-        const auto place = [&](Node n) { return origin + Point{round_to_lattice(axis.at[n].x), round_to_lattice(axis.at[n].y)}; };
+        const auto place = [&](Node n) {
+            return origin + Point{round_to_lattice(axis.at[n].x), round_to_lattice(axis.at[n].y)};
+        };
         const Unit step = std::max<Unit>(1, width / 20);
         for (std::size_t i = 1; i < chain.size(); ++i) {
             const Point a = place(chain[i - 1]), b = place(chain[i]);

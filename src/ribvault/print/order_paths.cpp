@@ -25,7 +25,8 @@ bool more_to_the_rear(Point a, Point b) { return 5 * a.y - 2 * a.x > 5 * b.y - 2
 Point first_point(const PlannedTrack& track) { return track.paths.front().points.front(); }
 Point last_point(const PlannedTrack& track) { return end_of(track.paths.back()); }
 
-/// Where perimeters that may be entered anywhere come nearest to what is printed inside them; nothing when they may not.
+/// Where perimeters that may be entered anywhere come nearest to what is printed inside them; nothing when they may
+/// not.
 std::optional<Point> free_seam(const LayerPlan& plan, const IslandTracks& island) {
     std::optional<Point> seam;
     double nearest = std::numeric_limits<double>::infinity();
@@ -45,7 +46,8 @@ std::vector<IslandTracks> sort_by_island(const LayerPlan& plan, const Region& ou
     std::vector<IslandTracks> all(islands.size() + 1);  // the last: external supports
     for (std::size_t t = 0; t < plan.tracks.size(); ++t) {
         const PlannedTrack& track = plan.tracks[t];
-        IslandTracks& island = track.paths.front().kind == TrackKind::external_support ? all.back() : all[islands.of(first_point(track))];
+        IslandTracks& island =
+            track.paths.front().kind == TrackKind::external_support ? all.back() : all[islands.of(first_point(track))];
         island.of[static_cast<std::size_t>(stage_of(track.paths.front().kind))].push_back(t);
         island.empty = false;
     }
@@ -55,7 +57,8 @@ std::vector<IslandTracks> sort_by_island(const LayerPlan& plan, const Region& ou
             island.anchor = *seam;
             continue;
         }
-        const auto first = std::find_if(island.of.begin(), island.of.end(), [](const Tracks& tracks) { return !tracks.empty(); });
+        const auto first =
+            std::find_if(island.of.begin(), island.of.end(), [](const Tracks& tracks) { return !tracks.empty(); });
         island.anchor = first_point(plan.tracks[first->front()]);
         for (std::size_t t : *first)
             if (const Point p = first_point(plan.tracks[t]); more_to_the_rear(p, island.anchor)) island.anchor = p;
@@ -106,8 +109,8 @@ Point append_stage(LayerPlan& plan, const Tracks& tracks, Point from, std::optio
     return layer.paths.empty() ? from : end_of(layer.paths.back());
 }
 
-/// Where an island that is printed perimeters first, from its anchor, is left; the layer above, which is printed the other way
-/// round, starts there.
+/// Where an island that is printed perimeters first, from its anchor, is left; the layer above, which is printed the
+/// other way round, starts there.
 Point far_end(const LayerPlan& plan, const IslandTracks& island) {
     const std::vector<Visit> tour = tour_of(plan, island.of[1], island.anchor, std::nullopt);
     if (tour.empty()) return island.anchor;
@@ -119,7 +122,8 @@ Point far_end(const LayerPlan& plan, const IslandTracks& island) {
 }  // namespace
 
 PrintStage stage_of(TrackKind kind) {
-    return kind == TrackKind::outer_perimeter || kind == TrackKind::inner_perimeter ? PrintStage::perimeters : PrintStage::inside;
+    return kind == TrackKind::outer_perimeter || kind == TrackKind::inner_perimeter ? PrintStage::perimeters
+                                                                                    : PrintStage::inside;
 }
 
 LayerPaths order_paths(LayerPlan plan, const Region& outline, bool alternate) {

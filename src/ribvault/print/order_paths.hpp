@@ -11,16 +11,16 @@ PrintStage stage_of(TrackKind kind);
 
 /// The layer's paths in printing order, with little travel (Section 4.4; short_tour).
 ///
-/// Island after island of the slice (`outline`: its rounded contours), in each the perimeters, then what they enclose (thin
-/// walls, covers, supports), from where the perimeters have ended. Every track comes after its `after`. Islands follow each
-/// other on a short way from the rearmost one, on odd layers backwards, so that a layer begins on the island on which the one
-/// below has ended.
+/// Island after island of the slice (`outline`: its rounded contours), in each the perimeters, then what they enclose
+/// (thin walls, covers, supports), from where the perimeters have ended. Every track comes after its `after`. Islands
+/// follow each other on a short way from the rearmost one, on odd layers backwards, so that a layer begins on the
+/// island on which the one below has ended.
 ///
-/// With `alternate` odd layers print the perimeters last: an even layer goes from the seam to wherever that way ends, an odd one
-/// begins where it would end itself if it were even; that ends at the seam, near which the next even one begins. Without it every layer begins
-/// at the seam, and ends as near to it as its tracks allow. So no layer needs to know its neighbours, and layers can be ordered
-/// concurrently. Tracks are turned around or rotated as their `entry` allows.
-/// Deterministic. Precondition: `after` names tracks of the same stage and island.
+/// With `alternate` odd layers print the perimeters last: an even layer goes from the seam to wherever that way ends,
+/// an odd one begins where it would end itself if it were even; that ends at the seam, near which the next even one
+/// begins. Without it every layer begins at the seam, and ends as near to it as its tracks allow. So no layer needs to
+/// know its neighbours, and layers can be ordered concurrently. Tracks are turned around or rotated as their `entry`
+/// allows. Deterministic. Precondition: `after` names tracks of the same stage and island.
 LayerPaths order_paths(LayerPlan plan, const Region& outline, bool alternate = false);
 
 }  // namespace ribvault

@@ -21,7 +21,8 @@ Vec nearest_on(const Segment& s, Vec p) {
 /// How far p is beyond the reach of all material.
 double excess(Vec p, const std::vector<Lane>& material, double rho) {
     double least = HUGE_VAL;
-    for (const Lane& lane : material) least = std::min(least, norm(p - nearest_on(lane.centre, p)) - static_cast<double>(lane.width) / 2 - rho);
+    for (const Lane& lane : material)
+        least = std::min(least, norm(p - nearest_on(lane.centre, p)) - static_cast<double>(lane.width) / 2 - rho);
     return least;
 }
 
@@ -37,7 +38,8 @@ std::vector<Lane> within_reach(const HangingStretch& stretch, const std::vector<
     const double radius = (to - from) / 2 + half;
     std::vector<Lane> near;
     for (const Lane& lane : material)
-        if (norm(middle - nearest_on(lane.centre, middle)) <= radius + static_cast<double>(lane.width) / 2 + rho + 1) near.push_back(lane);
+        if (norm(middle - nearest_on(lane.centre, middle)) <= radius + static_cast<double>(lane.width) / 2 + rho + 1)
+            near.push_back(lane);
     return near;
 }
 
@@ -50,9 +52,13 @@ std::vector<std::vector<Vec>> sections_of(const HangingStretch& stretch) {
     std::vector<std::vector<Vec>> sections(static_cast<std::size_t>((to - from) / along) + 2);
     for (std::size_t k = 0; k < sections.size(); ++k) {
         const double s = from + (to - from) * static_cast<double>(k) / static_cast<double>(sections.size() - 1);
-        const double beyond = s < 0 ? -s : s > l ? s - l : 0, reach = std::sqrt(std::max(0.0, half * half - beyond * beyond));
+        const double beyond = s < 0   ? -s
+                              : s > l ? s - l
+                                      : 0,
+                     reach = std::sqrt(std::max(0.0, half * half - beyond * beyond));
         const int steps = static_cast<int>(2 * reach / across) + 2;
-        for (int j = 0; j < steps; ++j) sections[k].push_back(a + s * ahead + (-reach + 2 * reach * j / (steps - 1)) * aside);
+        for (int j = 0; j < steps; ++j)
+            sections[k].push_back(a + s * ahead + (-reach + 2 * reach * j / (steps - 1)) * aside);
     }
     return sections;
 }
@@ -92,10 +98,12 @@ std::vector<Point> hanging_points(const HangingStretch& stretch, const std::vect
     return points;
 }
 
-std::optional<PlacedDot> place_dot(const HangingStretch& stretch, const std::vector<Lane>& material, Unit width, Unit rho) {
+std::optional<PlacedDot> place_dot(const HangingStretch& stretch, const std::vector<Lane>& material, Unit width,
+                                   Unit rho) {
     if (material.empty()) return std::nullopt;
     double most = 0;
-    const std::vector<Vec> points = hanging(stretch, within_reach(stretch, material, static_cast<double>(rho)), static_cast<double>(rho), most);
+    const std::vector<Vec> points =
+        hanging(stretch, within_reach(stretch, material, static_cast<double>(rho)), static_cast<double>(rho), most);
     if (most < -room) return PlacedDot{stretch.track.centre.a, 0, false};
     Vec middle;
     for (const Vec& p : points) middle = middle + 1.0 / static_cast<double>(points.size()) * p;
@@ -105,14 +113,16 @@ std::optional<PlacedDot> place_dot(const HangingStretch& stretch, const std::vec
     std::optional<PlacedDot> best;
     for (const Lane& lane : material) {
         if (lane.width < width) continue;
-        // The first place on the straight way from the lane to the middle of what hangs from which all of it is within reach.
+        // The first place on the straight way from the lane to the middle of what hangs from which all of it is within
+        // reach.
         const Vec start = nearest_on(lane.centre, middle), way = middle - start;
         const double l = norm(way);
         if (l == 0 || l > farthest + radius) continue;  // the middle, too, is in the dot's reach
         const Vec ahead = 1 / l * way;
         double first = 0, last = HUGE_VAL;
         for (const Vec& p : points) {
-            const double t = dot(p - start, ahead), aside = dot(p - start, p - start) - t * t, chord = radius * radius - aside;
+            const double t = dot(p - start, ahead), aside = dot(p - start, p - start) - t * t,
+                         chord = radius * radius - aside;
             if (chord < 0) {
                 last = -1;
                 break;

@@ -18,7 +18,9 @@ Rational in_mm(std::int64_t value) {
 
 Millimetres to_mm(Decimal d) {
     constexpr std::int64_t picometre = decimal_one / Millimetres::picometres_per_mm;
-    if (d.value % picometre == 0) return Millimetres::of_picometres(static_cast<std::int64_t>(d.value / picometre));  // decimal_limit is far below 9e9
+    if (d.value % picometre == 0)
+        return Millimetres::of_picometres(
+            static_cast<std::int64_t>(d.value / picometre));  // decimal_limit is far below 9e9
     return to_rational(d);
 }
 
@@ -29,7 +31,8 @@ void append(const GcodeLayer& layer, const std::vector<char>& outline, std::int6
     to.tracks.reserve(to.tracks.size() + layer.tracks.size());
     for (const GcodeTrack& t : layer.tracks) {
         const std::int64_t wide = std::max<std::int64_t>(1, t.width + (t.chord ? widen_chords : 0));
-        to.tracks.push_back({points[t.a], points[t.b], Millimetres::of_picometres(wide), t.feature, t.line, !outline.empty() && outline[static_cast<std::size_t>(&t - layer.tracks.data())] != 0});
+        to.tracks.push_back({points[t.a], points[t.b], Millimetres::of_picometres(wide), t.feature, t.line,
+                             !outline.empty() && outline[static_cast<std::size_t>(&t - layer.tracks.data())] != 0});
     }
 }
 
@@ -51,7 +54,8 @@ PrintedLayer layer_below(const GcodePrint& print, std::size_t entry) {
 PrintedLayer material_below(const GcodePrint& print, std::size_t entry) {
     const GcodeLayer& layer = print.layers[entry];
     PrintedLayer material{to_rational(layer.z) - in_mm(layer.height), {}, {}};
-    for (const std::size_t k : layer.below) append(print.layers[k], outline_tracks(print, print.layers[k]), -2 * arc_bound, material);
+    for (const std::size_t k : layer.below)
+        append(print.layers[k], outline_tracks(print, print.layers[k]), -2 * arc_bound, material);
     return material;
 }
 
@@ -59,8 +63,10 @@ std::vector<char> outline_tracks(const GcodePrint& print, const GcodeLayer& laye
     std::vector<char> outer;
     for (const GcodeFeature& feature : print.features) {
         std::string name = feature.name;
-        std::transform(name.begin(), name.end(), name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-        outer.push_back(name == "external perimeter" || name == "outer wall" || name == "wall-outer" || name == "outer perimeter");
+        std::transform(name.begin(), name.end(), name.begin(),
+                       [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+        outer.push_back(name == "external perimeter" || name == "outer wall" || name == "wall-outer" ||
+                        name == "outer perimeter");
     }
     std::vector<char> result(layer.tracks.size(), 0);
     const std::vector<GcodeTrack>& tracks = layer.tracks;
@@ -68,7 +74,8 @@ std::vector<char> outline_tracks(const GcodePrint& print, const GcodeLayer& laye
         std::size_t end = k + 1;
         while (end < tracks.size() && tracks[end].continues && tracks[end].feature == tracks[k].feature) ++end;
         if (outer[tracks[k].feature] && end - k > 2 && layer.points[tracks[k].a] == layer.points[tracks[end - 1].b])
-            std::fill(result.begin() + static_cast<std::ptrdiff_t>(k), result.begin() + static_cast<std::ptrdiff_t>(end), 1);
+            std::fill(result.begin() + static_cast<std::ptrdiff_t>(k),
+                      result.begin() + static_cast<std::ptrdiff_t>(end), 1);
         k = end;
     }
     return result;

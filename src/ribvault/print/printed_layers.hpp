@@ -8,19 +8,19 @@
 
 namespace ribvault {
 
-/// An entry of print.layers, to be held up: one track for each of its tracks, in their order. A chord is as much wider as its
-/// arc may lie beside it (arc_bound_mm), so that it contains the arc's material.
+/// An entry of print.layers, to be held up: one track for each of its tracks, in their order. A chord is as much wider
+/// as its arc may lie beside it (arc_bound_mm), so that it contains the arc's material.
 PrintedLayer layer_above(const GcodePrint& print, std::size_t entry);
 
-/// The material directly below it: all tracks of its `below`, whatever feature they belong to. A chord is as much narrower. `outline` is set as
-/// outline_tracks says.
+/// The material directly below it: all tracks of its `below`, whatever feature they belong to. A chord is as much
+/// narrower. `outline` is set as outline_tracks says.
 PrintedLayer material_below(const GcodePrint& print, std::size_t entry);
 
 /// An entry as what holds others up; chords are as much narrower.
 PrintedLayer layer_below(const GcodePrint& print, std::size_t entry);
 
-/// Per track of the entry: 1 when it is part of a closed loop of outer perimeter (a feature named so), which bounds the object:
-/// tracks that follow each other without a travel and end exactly where they began.
+/// Per track of the entry: 1 when it is part of a closed loop of outer perimeter (a feature named so), which bounds the
+/// object: tracks that follow each other without a travel and end exactly where they began.
 std::vector<char> outline_tracks(const GcodePrint& print, const GcodeLayer& layer);
 
 /// Per track of the entry: 1 when it goes on where the track before it ended, without a travel.

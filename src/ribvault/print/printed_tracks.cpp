@@ -1,7 +1,9 @@
 #include "ribvault/print/printed_tracks.hpp"
 
 namespace ribvault {
-Millimetres printed_length(Unit length) { return Millimetres::of_picometres(length * (Millimetres::picometres_per_mm / units_per_mm)); }
+Millimetres printed_length(Unit length) {
+    return Millimetres::of_picometres(length * (Millimetres::picometres_per_mm / units_per_mm));
+}
 
 PrintedLayer printed_layer(const LayerPlan& plan) {
     PrintedLayer layer;

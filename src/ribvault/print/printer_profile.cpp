@@ -20,7 +20,8 @@ struct Refusal {
 double number(const std::string& text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) throw Refusal{"'" + text + "' is not a number"};
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+        throw Refusal{"'" + text + "' is not a number"};
     return value;
 }
 
@@ -42,7 +43,8 @@ std::array<double, N> numbers(const std::string& text, const char* example) {
     std::size_t from = 0;
     for (std::size_t k = 0; k < N; ++k) {
         const std::size_t comma = text.find(',', from);
-        if ((comma == std::string::npos) != (k + 1 == N)) throw Refusal{"'" + text + "' are not " + std::to_string(N) + " numbers; write for example " + example};
+        if ((comma == std::string::npos) != (k + 1 == N))
+            throw Refusal{"'" + text + "' are not " + std::to_string(N) + " numbers; write for example " + example};
         std::string part = text.substr(from, comma - from);
         part.erase(0, part.find_first_not_of(' '));
         part.erase(part.find_last_not_of(' ') + 1);
@@ -67,7 +69,9 @@ Setter line_of(std::string PrinterSettings::*member) {
     return [member](PrinterSettings& p, const std::string& v) { p.*member += unescaped(v) + "\n"; };
 }
 Setter axes(std::array<double, 4> MotionLimits::*member) {
-    return [member](PrinterSettings& p, const std::string& v) { p.limits.*member = numbers<4>(v, "500,500,12,120 (x, y, z, filament)"); };
+    return [member](PrinterSettings& p, const std::string& v) {
+        p.limits.*member = numbers<4>(v, "500,500,12,120 (x, y, z, filament)");
+    };
 }
 Setter acceleration(double MotionLimits::*member) {
     return [member](PrinterSettings& p, const std::string& v) { p.limits.*member = number(v); };
@@ -151,7 +155,9 @@ PrinterSettings read_profile(std::string_view text, const std::string& name) {
     }
     for (const char* key : {"nozzle_temperature", "bed_temperature"})
         if (!seen.contains(key))
-            throw Error(ErrorKind::usage, name + ":" + std::to_string(last) + ": " + key + ": missing up to the end of the profile; add '" + key + " = ...' (degrees C)");
+            throw Error(ErrorKind::usage, name + ":" + std::to_string(last) + ": " + key +
+                                              ": missing up to the end of the profile; add '" + key +
+                                              " = ...' (degrees C)");
     return printer;
 }
 
@@ -161,7 +167,8 @@ PrinterSettings builtin_profile(std::string_view name) {
         if (profile.name == name) return read_profile(profile.text, std::string(name));
         (names += names.empty() ? "" : ", ") += profile.name;
     }
-    throw Error(ErrorKind::usage, "--printer: there is no built-in profile '" + std::string(name) + "'; there are " + names);
+    throw Error(ErrorKind::usage,
+                "--printer: there is no built-in profile '" + std::string(name) + "'; there are " + names);
 }
 
 }  // namespace ribvault

@@ -9,12 +9,12 @@
 
 namespace ribvault {
 
-/// The printer that a profile describes; docs/printing.md lists the keys. What it does not name keeps its default, except
-/// the temperatures, which every profile must state. `start_gcode`, `end_gcode` and `file_header` may be given several
-/// times: each adds a line. `name`: what to call the text in errors.
+/// The printer that a profile describes; docs/printing.md lists the keys. What it does not name keeps its default,
+/// except the temperatures, which every profile must state. `start_gcode`, `end_gcode` and `file_header` may be given
+/// several times: each adds a line. `name`: what to call the text in errors.
 ///
-/// Throws Error (usage) "NAME:LINE: ..." naming the key: unknown, given twice, no number where one belongs, out of range, a
-/// placeholder that does not exist, a temperature that is missing.
+/// Throws Error (usage) "NAME:LINE: ..." naming the key: unknown, given twice, no number where one belongs, out of
+/// range, a placeholder that does not exist, a temperature that is missing.
 PrinterSettings read_profile(std::string_view text, const std::string& name);
 
 struct BuiltinProfile {

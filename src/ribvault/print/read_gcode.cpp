@@ -33,12 +33,14 @@ public:
     void feed(std::string_view text) {
         if (print_.bytes == 0) refuse_other_formats(text);
         print_.bytes += text.size();
-        if (std::memchr(text.data(), 0, text.size()) != nullptr) fail("holds zero bytes: it is not text", "export it as plain G-code");
+        if (std::memchr(text.data(), 0, text.size()) != nullptr)
+            fail("holds zero bytes: it is not text", "export it as plain G-code");
         while (!text.empty()) {
             const std::size_t end = text.find('\n');
             if (end == std::string_view::npos) {
                 rest_ += text;
-                if (rest_.size() > longest_line) fail("has a line of more than 1 MB: it is no G-code", "export it as plain G-code");
+                if (rest_.size() > longest_line)
+                    fail("has a line of more than 1 MB: it is no G-code", "export it as plain G-code");
                 return;
             }
             if (rest_.empty()) {
@@ -65,7 +67,8 @@ public:
         LayerHints hints{comments_.layer_height, comments_.first_layer_height, comments_.filaments};
         if (options_.filament_diameter) hints.filaments = {*options_.filament_diameter};
         if (hints.filaments.empty()) hints.filaments = {usual_filament};
-        if (!hints.layer_height && options_.layer_height) hints.layer_height = std::llround(*options_.layer_height * 1000) * 1000000;
+        if (!hints.layer_height && options_.layer_height)
+            hints.layer_height = std::llround(*options_.layer_height * 1000) * 1000000;
         print_.filament_diameter = hints.filaments.front();
         collector_.finish(print_, hints);
         return std::move(print_);
@@ -80,19 +83,22 @@ private:
     }
 
     void refuse_other_formats(std::string_view text) const {
-        if (text.starts_with("GCDE")) fail("is binary G-code", "switch off 'binary G-code' in the slicer, or convert it to .gcode");
+        if (text.starts_with("GCDE"))
+            fail("is binary G-code", "switch off 'binary G-code' in the slicer, or convert it to .gcode");
         if (text.starts_with("PK\3\4")) fail("is a ZIP archive, as .3mf files are", "unpack the .gcode file in it");
         const std::string_view start = text.substr(0, 4096);
         const auto odd = std::count_if(start.begin(), start.end(), [](char c) {
             return static_cast<unsigned char>(c) < 32 && c != '\t' && c != '\n' && c != '\r' && c != '\f';
         });
-        if (static_cast<std::size_t>(odd) * 50 > start.size()) fail("is no text: it is not G-code", "name a .gcode file");
+        if (static_cast<std::size_t>(odd) * 50 > start.size())
+            fail("is no text: it is not G-code", "name a .gcode file");
     }
 
     [[noreturn]] void fail_without_extrusions() const {
         if (print_.set_aside_mm > 0) fail("extrudes nothing but start and custom G-code", "export the G-code again");
         if (motions_ > 0) fail("moves, but never extrudes", "export the G-code again");
-        fail("holds no move (G0 to G3) in " + std::to_string(print_.lines) + " lines: it is not G-code", "name a .gcode file");
+        fail("holds no move (G0 to G3) in " + std::to_string(print_.lines) + " lines: it is not G-code",
+             "name a .gcode file");
     }
 
     void line(std::string_view text) {
@@ -235,7 +241,8 @@ GcodePrint read_gcode(const std::filesystem::path& file, const GcodeOptions& opt
     std::string block(block_size, '\0');
     while (stream) {
         stream.read(block.data(), static_cast<std::streamsize>(block.size()));
-        if (stream.gcount() > 0) reader.feed(std::string_view(block).substr(0, static_cast<std::size_t>(stream.gcount())));
+        if (stream.gcount() > 0)
+            reader.feed(std::string_view(block).substr(0, static_cast<std::size_t>(stream.gcount())));
     }
     if (stream.bad()) refuse("reading failed", "copy the file to a local disk and try again");
     return reader.finish();

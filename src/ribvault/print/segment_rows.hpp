@@ -24,17 +24,19 @@ public:
         for (const Segment& s : segments) {
             const auto [lo, hi] = std::minmax(s.a.y, s.b.y);
             const Unit last = (hi + margin - bottom_) / height_;
-            for (Unit row = (lo - margin - bottom_) / height_; row <= last; ++row) rows_[static_cast<std::size_t>(row)].push_back(s);
+            for (Unit row = (lo - margin - bottom_) / height_; row <= last; ++row)
+                rows_[static_cast<std::size_t>(row)].push_back(s);
         }
     }
 
-    /// Calls visit(segment) for the segments of all rows that meet lo .. hi, some of them several times; stops and returns
-    /// true when it does.
+    /// Calls visit(segment) for the segments of all rows that meet lo .. hi, some of them several times; stops and
+    /// returns true when it does.
     template <class Visit>
     bool any(Unit lo, Unit hi, Visit&& visit) const {
         const auto count = static_cast<Unit>(rows_.size());
         if (count == 0 || hi < bottom_ || lo >= bottom_ + count * height_) return false;
-        const Unit first = std::max<Unit>(0, (lo - bottom_) / height_), last = std::min((hi - bottom_) / height_, count - 1);
+        const Unit first = std::max<Unit>(0, (lo - bottom_) / height_),
+                   last = std::min((hi - bottom_) / height_, count - 1);
         for (Unit row = lo < bottom_ ? 0 : first; row <= last; ++row)
             for (const Segment& s : rows_[static_cast<std::size_t>(row)])
                 if (visit(s)) return true;

@@ -28,19 +28,22 @@ double distance(Point p, const Contour& ring) {
     return nearest;
 }
 
-/// The rear, a little to the left: on a flat back, which is seldom quite parallel to the bed's edge, the rearmost point would
-/// jump from one corner to the other between layers.
+/// The rear, a little to the left: on a flat back, which is seldom quite parallel to the bed's edge, the rearmost point
+/// would jump from one corner to the other between layers.
 bool more_to_the_rear(Point a, Point b) {
     const Unit far_a = 5 * a.y - 2 * a.x, far_b = 5 * b.y - 2 * b.x;
     return far_a != far_b ? far_a > far_b : a < b;
 }
 
-/// How far the contour turns at vertex i, in steps of 10 degrees, so that corners alike from layer to layer compare equal.
+/// How far the contour turns at vertex i, in steps of 10 degrees, so that corners alike from layer to layer compare
+/// equal.
 int turn_at(const Contour& ring, std::size_t i) {
     const std::size_t n = ring.size();
     const Point in = ring[i] - ring[(i + n - 1) % n], out = ring[(i + 1) % n] - ring[i];
-    const double cross = static_cast<double>(in.x) * static_cast<double>(out.y) - static_cast<double>(in.y) * static_cast<double>(out.x);
-    const double dot = static_cast<double>(in.x) * static_cast<double>(out.x) + static_cast<double>(in.y) * static_cast<double>(out.y);
+    const double cross =
+        static_cast<double>(in.x) * static_cast<double>(out.y) - static_cast<double>(in.y) * static_cast<double>(out.x);
+    const double dot =
+        static_cast<double>(in.x) * static_cast<double>(out.x) + static_cast<double>(in.y) * static_cast<double>(out.y);
     return static_cast<int>(std::fabs(std::atan2(cross, dot)) * 18 / 3.14159265358979 + 0.5);
 }
 
@@ -55,8 +58,8 @@ void put_seam_first(Contour& ring, Seam seam) {
 }
 
 /// The perimeters by ring, j = 0 outermost, as numbers of tracks in the plan.
-void append_perimeters(const Region& outermost, Unit w, const Settings& settings, const TrackSettings& tracks, const Region& outline,
-                       LayerPlan& plan) {
+void append_perimeters(const Region& outermost, Unit w, const Settings& settings, const TrackSettings& tracks,
+                       const Region& outline, LayerPlan& plan) {
     const double width = static_cast<double>(w);
     std::vector<std::vector<std::size_t>> rings;
     for (int j = 0; j < settings.perimeters; ++j) {
@@ -99,12 +102,14 @@ void append_thin_walls(const Region& outline, const Region& outermost, Unit w, b
 /// Where centre lines of covers may run, as connected areas with their holes. Eroding O_i \ C_i is eroding O_i and
 /// dilating C_i, and keeps Clipper away from the nearly coincident borders of the two.
 std::vector<Region> cover_areas(const Region& outline, const Region& cavity, int perimeters, double width) {
-    return connected_pieces(clip(cl::ctDifference, mitred(outline, -(perimeters + 0.5) * width), mitred(cavity, width / 2)));
+    return connected_pieces(
+        clip(cl::ctDifference, mitred(outline, -(perimeters + 0.5) * width), mitred(cavity, width / 2)));
 }
 
-/// Strips between perimeters, covers and cavity that are too narrow for a cover. `areas`: where centre lines of covers run.
-void append_gap_fill(const Region& outline, const Region& cavity, int perimeters, Unit w, const std::vector<Region>& areas, bool printed,
-                     LayerPlan& plan) {
+/// Strips between perimeters, covers and cavity that are too narrow for a cover. `areas`: where centre lines of covers
+/// run.
+void append_gap_fill(const Region& outline, const Region& cavity, int perimeters, Unit w,
+                     const std::vector<Region>& areas, bool printed, LayerPlan& plan) {
     const double width = static_cast<double>(w);
     constexpr double apart = 10;  // lattice units: keeps Clipper away from nearly coincident borders
     const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - 2 * apart), cavity);
@@ -131,7 +136,8 @@ void append_concentric(Region area, Unit w, LayerPlan& plan) {
     while (!area.empty()) {
         Region next = mitred(area, -width);
         if (next.empty())
-            for (PlannedTrack& middle : medial_tracks(mitred(area, -width / 2), w, TrackKind::cover)) plan.tracks.push_back(std::move(middle));
+            for (PlannedTrack& middle : medial_tracks(mitred(area, -width / 2), w, TrackKind::cover))
+                plan.tracks.push_back(std::move(middle));
         for (Contour& ring : area) {
             ToolPath path{TrackKind::cover, w, true, std::move(ring)};
             if (2 * length(path) >= width) plan.tracks.push_back({{std::move(path)}, Entry::anywhere, no_stop});
@@ -154,9 +160,11 @@ void append_covers(const Region& area, Unit w, bool falling, CoverPattern patter
 
 }  // namespace
 
-void append_shell_paths(const Slice& slice, const Region& exact_cavity, const Settings& settings, const TrackSettings& tracks, LayerPlan& plan) {
+void append_shell_paths(const Slice& slice, const Region& exact_cavity, const Settings& settings,
+                        const TrackSettings& tracks, LayerPlan& plan) {
     const Unit w = tracks.width_on(slice.layer, settings.nozzle);
-    const Region outline = simplify(slice.rounded, tracks.resolution), cavity = simplify(exact_cavity, tracks.resolution);
+    const Region outline = simplify(slice.rounded, tracks.resolution),
+                 cavity = simplify(exact_cavity, tracks.resolution);
     const Region outermost = mitred(outline, -static_cast<double>(w) / 2);
     append_perimeters(outermost, w, settings, tracks, outline, plan);
     append_thin_walls(outline, outermost, w, tracks.thin_walls, plan);

@@ -10,22 +10,24 @@ namespace ribvault {
 /// Appends the tracks of B_i = O_i \ C_i to a plan. w is d = `settings.nozzle`, on layer 0 the first layer's width.
 ///
 /// Perimeters: closed tracks of width w whose centre lines run at distance (j + 1/2) w inside O_i (`slice.rounded`),
-/// j = 0 .. p - 1; corners are mitred up to twice the distance. Each comes after the one beside it that is nearer to the
-/// outside (with `inner_first`: to the inside). Outer ones start where `tracks.seam` says, inner ones anywhere.
+/// j = 0 .. p - 1; corners are mitred up to twice the distance. Each comes after the one beside it that is nearer to
+/// the outside (with `inner_first`: to the inside). Outer ones start where `tracks.seam` says, inner ones anywhere.
 ///
-/// Thin walls: what of O_i no outer perimeter fills because it is narrower than w gets medial_tracks where it is at least
-/// w / 2 wide. Places still narrower are counted in the plan with their area, as are all without `tracks.thin_walls`.
+/// Thin walls: what of O_i no outer perimeter fills because it is narrower than w gets medial_tracks where it is at
+/// least w / 2 wide. Places still narrower are counted in the plan with their area, as are all without
+/// `tracks.thin_walls`.
 ///
-/// Gaps: strips of the shell between perimeters, covers and cavity that are too narrow for a cover get medial_tracks alike
-/// with `tracks.fill_gaps`; the area of the others, or of all, is added to the plan (`unfilled_area`).
+/// Gaps: strips of the shell between perimeters, covers and cavity that are too narrow for a cover get medial_tracks
+/// alike with `tracks.fill_gaps`; the area of the others, or of all, is added to the plan (`unfilled_area`).
 ///
-/// Covers: what the perimeters and the cavity C_i (`cavity`) leave of O_i is filled by `tracks.covers`: straight tracks of
-/// width w, w apart, at 45° on even layers and at 135° on odd ones, or closed ones along the border with medial_tracks
-/// where they leave a middle. Their centre lines keep w / 2 from the border of this area, so that their material stays in
-/// it. Tracks shorter than w / 2 are left out.
+/// Covers: what the perimeters and the cavity C_i (`cavity`) leave of O_i is filled by `tracks.covers`: straight tracks
+/// of width w, w apart, at 45° on even layers and at 135° on odd ones, or closed ones along the border with
+/// medial_tracks where they leave a middle. Their centre lines keep w / 2 from the border of this area, so that their
+/// material stays in it. Tracks shorter than w / 2 are left out.
 ///
 /// Postcondition: centre lines of perimeters and covers lie at least w / 2 inside O_i, but for two lattice units
 /// (20 nm) of rounding; the same holds for covers and the complement of the cavity.
-void append_shell_paths(const Slice& slice, const Region& cavity, const Settings& settings, const TrackSettings& tracks, LayerPlan& plan);
+void append_shell_paths(const Slice& slice, const Region& cavity, const Settings& settings, const TrackSettings& tracks,
+                        LayerPlan& plan);
 
 }  // namespace ribvault

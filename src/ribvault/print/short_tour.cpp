@@ -16,7 +16,8 @@ double distance(Point a, Point b) {
 
 class Tour {
 public:
-    Tour(const std::vector<TourStop>& stops, Point from, std::optional<Point> to) : stops_(stops), from_(from), to_(to) {
+    Tour(const std::vector<TourStop>& stops, Point from, std::optional<Point> to)
+        : stops_(stops), from_(from), to_(to) {
         start();
         near_.resize(stops_.size());
     }
@@ -59,7 +60,9 @@ private:
         const TourStop& s = stops_[stop];
         return s.entry == Entry::fixed ? 1 : s.entry == Entry::either_end ? 2 : s.ring->size();
     }
-    std::size_t way_step(std::size_t stop) const { return stops_[stop].entry == Entry::anywhere ? 1 + ways(stop) / sampled_entries : 1; }
+    std::size_t way_step(std::size_t stop) const {
+        return stops_[stop].entry == Entry::anywhere ? 1 + ways(stop) / sampled_entries : 1;
+    }
 
     Index size() const { return static_cast<Index>(order_.size()); }
     Visit at(Index k) const { return order_[static_cast<std::size_t>(k)]; }
@@ -67,7 +70,9 @@ private:
     /// Where the nozzle leaves for position k.
     Point left_at(Index k) const { return k < 0 ? from_ : out(at(k)); }
     /// Travel from a point to where position k begins; after the last one to the tour's end.
-    double to_position(Point p, Index k) const { return k < size() ? distance(p, in(at(k))) : to_ ? distance(p, *to_) : 0; }
+    double to_position(Point p, Index k) const {
+        return k < size() ? distance(p, in(at(k))) : to_ ? distance(p, *to_) : 0;
+    }
 
     void start() {
         const std::size_t n = stops_.size();
@@ -86,7 +91,8 @@ private:
             for (std::size_t k = 0; k < open.size(); ++k)
                 for (std::size_t way = 0, end = ways(open[k]), step = way_step(open[k]); way < end; way += step) {
                     const double d = distance(here, in({open[k], way}));
-                    if (d < nearest || (d == nearest && open[k] < visit.stop)) nearest = d, best = k, visit = {open[k], way};
+                    if (d < nearest || (d == nearest && open[k] < visit.stop))
+                        nearest = d, best = k, visit = {open[k], way};
                 }
             order_.push_back(visit);
             here = out(visit);
@@ -117,7 +123,9 @@ private:
             for (std::size_t t = 0; t < n; ++t) {
                 if (t == s) continue;
                 const Visit w = order_[position_[t]];
-                all.emplace_back(std::min({distance(in(v), in(w)), distance(in(v), out(w)), distance(out(v), in(w)), distance(out(v), out(w))}), t);
+                all.emplace_back(std::min({distance(in(v), in(w)), distance(in(v), out(w)), distance(out(v), in(w)),
+                                           distance(out(v), out(w))}),
+                                 t);
             }
             const std::size_t count = std::min(neighbours, all.size());
             std::partial_sort(all.begin(), all.begin() + static_cast<Index>(count), all.end());

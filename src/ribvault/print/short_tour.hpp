@@ -35,11 +35,11 @@ struct Visit {
 
 /// A short way from `from` through all stops (and on to `to`, when given) that respects every `after`.
 ///
-/// Starts with the nearest stop that may come next (the smaller index on ties), then improves: moves runs of up to three
-/// stops elsewhere, turned around or not (Or-opt), reverses pieces of the tour (2-opt), changes ways; candidates are the
-/// eight nearest stops of each, or, of more than 400 stops, those next to it in the first tour. At most eight rounds, so the
-/// cost is bounded: O(n²) for the start, O(n) evaluations a round. Deterministic.
-/// Precondition: `after` has no cycles. Postcondition: every stop once, after its `after`; not longer than the first tour.
+/// Starts with the nearest stop that may come next (the smaller index on ties), then improves: moves runs of up to
+/// three stops elsewhere, turned around or not (Or-opt), reverses pieces of the tour (2-opt), changes ways; candidates
+/// are the eight nearest stops of each, or, of more than 400 stops, those next to it in the first tour. At most eight
+/// rounds, so the cost is bounded: O(n²) for the start, O(n) evaluations a round. Deterministic. Precondition: `after`
+/// has no cycles. Postcondition: every stop once, after its `after`; not longer than the first tour.
 std::vector<Visit> short_tour(const std::vector<TourStop>& stops, Point from, std::optional<Point> to);
 
 }  // namespace ribvault

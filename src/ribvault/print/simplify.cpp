@@ -27,7 +27,8 @@ Region simplify(const Region& region, Unit tolerance) {
             continue;
         }
         simple.emplace_back();
-        for (std::size_t k = 0; k + 1 < fewer.size(); ++k) simple.back().push_back({static_cast<Unit>(fewer[k].x()), static_cast<Unit>(fewer[k].y())});
+        for (std::size_t k = 0; k + 1 < fewer.size(); ++k)
+            simple.back().push_back({static_cast<Unit>(fewer[k].x()), static_cast<Unit>(fewer[k].y())});
     }
     return simple;
 }

@@ -7,7 +7,9 @@
 namespace ribvault {
 namespace {
 
-int brim_loops(Unit width, const TrackSettings& tracks) { return static_cast<int>((tracks.brim_width + width / 2) / width); }
+int brim_loops(Unit width, const TrackSettings& tracks) {
+    return static_cast<int>((tracks.brim_width + width / 2) / width);
+}
 
 /// The convex hull of all contours, counter-clockwise (Andrew's chains; exact).
 Contour hull_of(const Region& region) {
@@ -41,9 +43,12 @@ void append_loops(const Region& around, double distance, Unit width, std::vector
 
 }  // namespace
 
-std::vector<ToolPath> skirt_and_brim(const Region& object, const Settings& settings, const TrackSettings& tracks, const std::vector<Segment>& supports) {
+std::vector<ToolPath> skirt_and_brim(const Region& object, const Settings& settings, const TrackSettings& tracks,
+                                     const std::vector<Segment>& supports) {
     std::vector<ToolPath> paths;
-    const Region outline = supports.empty() ? object : clip(ClipperLib::ctUnion, object, offset(supports, static_cast<double>(settings.nozzle) / 2, 250));
+    const Region outline = supports.empty() ? object
+                                            : clip(ClipperLib::ctUnion, object,
+                                                   offset(supports, static_cast<double>(settings.nozzle) / 2, 250));
     const Unit w = tracks.width_on(0, settings.nozzle);
     const double width = static_cast<double>(w);
     const int brim = brim_loops(w, tracks);

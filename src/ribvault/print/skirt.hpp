@@ -6,9 +6,10 @@
 
 namespace ribvault {
 
-/// The tracks around the first layer (`object`: its slice; `supports`: centre lines beside it), in printing order: the skirt's loops from the outside in around
-/// everything, then the brim's from the outside in, the last of which touches the object. Of the first layer's width, one
-/// width apart. The brim runs around outer contours only, never into holes. Empty when neither is asked for.
+/// The tracks around the first layer (`object`: its slice; `supports`: centre lines beside it), in printing order: the
+/// skirt's loops from the outside in around everything, then the brim's from the outside in, the last of which touches
+/// the object. Of the first layer's width, one width apart. The brim runs around outer contours only, never into holes.
+/// Empty when neither is asked for.
 std::vector<ToolPath> skirt_and_brim(const Region& object, const Settings& settings, const TrackSettings& tracks,
                                       const std::vector<Segment>& supports = {});
 

@@ -32,7 +32,8 @@ struct RootedForest {
     /// width where a path runs through.
     std::vector<double> gap;
     std::vector<char> seen;
-    /// The track of the plan that runs through the vertex; where the branch is too short to be printed, the one before it.
+    /// The track of the plan that runs through the vertex; where the branch is too short to be printed, the one before
+    /// it.
     std::vector<std::size_t> printed_by;
 
     RootedForest(const SupportForest& f, Unit w)
@@ -174,7 +175,8 @@ void append_tree(RootedForest& f, Vertex root, LayerPlan& plan) {
         for (std::size_t i = 1; i < vertices.size(); ++i) f.printed_by[vertices[i]] = own;
         if (!printed) continue;
         if (above == no_stop) f.printed_by[branch.junction] = own;
-        const bool lies_on_walls = std::none_of(vertices.begin() + 1, vertices.end(), [&](Vertex v) { return f.first_layer[v]; });
+        const bool lies_on_walls =
+            std::none_of(vertices.begin() + 1, vertices.end(), [&](Vertex v) { return f.first_layer[v]; });
         const Entry entry = lies_on_walls ? Entry::either_end : Entry::fixed;
         plan.tracks.push_back({{{kind_of(f.forest[root]), f.width, false, std::move(points)}}, entry, above});
     }

@@ -9,16 +9,16 @@ namespace ribvault {
 ///
 /// Every tree is walked from its root with the smallest index; its other roots are vertices like any. At a junction
 /// the path goes on into the subtree that reaches farthest along its edges; ties prefer the straighter continuation,
-/// then the smaller vertex index. What it leaves aside becomes a track of its own, `after` the path that runs through the
-/// junction (after the nearest printed path above it, when that is too short to be printed). A track may be printed from
-/// its other end, except when part of it is on its first layer: then it begins at the junction, where it sticks, because
-/// below its other end there is nothing. A dot (isolated vertex) becomes a path of one point.
+/// then the smaller vertex index. What it leaves aside becomes a track of its own, `after` the path that runs through
+/// the junction (after the nearest printed path above it, when that is too short to be printed). A track may be printed
+/// from its other end, except when part of it is on its first layer: then it begins at the junction, where it sticks,
+/// because below its other end there is nothing. A dot (isolated vertex) becomes a path of one point.
 ///
 /// Only the first path runs through a junction. A later branch starts one track width (`settings.nozzle`) short of it,
-/// measured along the branch, unless its first edge has first_layer or to_junction set: then it starts at the junction. A branch that
-/// is no longer than its gap is not printed and counts as gap. A junction that lies inside such a gap is itself not
-/// printed; a branch from there starts where it is one width away, along the tree, from the nearest printed centre
-/// line, so that tracks touch without overlapping there too.
+/// measured along the branch, unless its first edge has first_layer or to_junction set: then it starts at the junction.
+/// A branch that is no longer than its gap is not printed and counts as gap. A junction that lies inside such a gap is
+/// itself not printed; a branch from there starts where it is one width away, along the tree, from the nearest printed
+/// centre line, so that tracks touch without overlapping there too.
 ///
 /// Precondition: every component of the forest is a tree with at least one root.
 /// Postcondition: every point is a vertex of the forest or the end of a gap (rounded once to the lattice); consecutive

@@ -9,8 +9,8 @@ namespace ribvault {
 
 using Corner = std::array<double, 3>;  ///< x, y, z in mm
 
-/// Sizes from text like "220x124, 16x16" (the decimals and formats that PrusaSlicer may add, "/PNG", are left out); "none" or
-/// nothing: no sizes. Throws Error (usage) for other text, and for sides above 1000.
+/// Sizes from text like "220x124, 16x16" (the decimals and formats that PrusaSlicer may add, "/PNG", are left out);
+/// "none" or nothing: no sizes. Throws Error (usage) for other text, and for sides above 1000.
 std::vector<std::array<int, 2>> thumbnail_sizes(const std::string& text);
 
 /// The triangles (three corners each) seen from the front left, from above, as PNG; transparent background.

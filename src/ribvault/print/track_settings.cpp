@@ -9,10 +9,12 @@ namespace ribvault {
 void TrackSettings::check(Unit nozzle) const {
     const auto refuse = [](const char* name, double value, double lo, double hi) {
         if (value < lo || value > hi)
-            throw Error(ErrorKind::usage, std::string(name) + " is " + std::to_string(value) + "; it must lie between " +
-                                              std::to_string(lo) + " and " + std::to_string(hi));
+            throw Error(ErrorKind::usage, std::string(name) + " is " + std::to_string(value) +
+                                              "; it must lie between " + std::to_string(lo) + " and " +
+                                              std::to_string(hi));
     };
-    if (first_layer_width != 0) refuse("--first-layer-width (mm)", to_mm(first_layer_width), to_mm(nozzle), 2 * to_mm(nozzle));
+    if (first_layer_width != 0)
+        refuse("--first-layer-width (mm)", to_mm(first_layer_width), to_mm(nozzle), 2 * to_mm(nozzle));
     refuse("--resolution (mm)", to_mm(resolution), 0, to_mm(nozzle) / 4);
     refuse("--skirt (loops)", skirt_loops, 0, 100);
     refuse("--skirt-distance (mm)", to_mm(skirt_distance), 0, 1000);

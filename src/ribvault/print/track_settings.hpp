@@ -13,7 +13,8 @@ enum class CoverPattern {
 
 /// Where a closed outer perimeter begins and ends.
 enum class Seam {
-    aligned,  ///< at its rear, a little to the left (the point with the largest 5 y - 2 x), so that the seams of the layers lie above each other
+    aligned,  ///< at its rear, a little to the left (the point with the largest 5 y - 2 x), so that the seams of the
+              ///< layers lie above each other
     corner,   ///< at its sharpest corner (the rearmost of those alike), where it shows least
     nearest   ///< where the nozzle travels least
 };
@@ -25,8 +26,9 @@ struct TrackSettings {
     CoverPattern covers = CoverPattern::zigzag;
     Seam seam = Seam::aligned;
     bool thin_walls = true;          ///< a track of its own width where the slice is narrower than one track
-    /// Slices and cavities are followed within this: 5 µm, far below what a printer resolves. A fifth less time and a third less G-code on
-    /// a scanned bunny of 75 000 triangles, and strips on slopes lie more alike from layer to layer.
+    /// Slices and cavities are followed within this: 5 µm, far below what a printer resolves. A fifth less time and a
+    /// third less G-code on a scanned bunny of 75 000 triangles, and strips on slopes lie more alike from layer to
+    /// layer.
     Unit resolution = 500;
     bool fill_gaps = true;           ///< the same for strips of the shell between perimeters, covers and cavity
     Unit first_layer_width = 0;      ///< of perimeters and covers on layer 0; at least d; 0: d
@@ -36,7 +38,9 @@ struct TrackSettings {
 
     /// Throws Error (usage) naming the first setting that cannot be. `nozzle`: d.
     void check(Unit nozzle) const;
-    Unit width_on(int layer, Unit nozzle) const { return layer == 0 && first_layer_width > 0 ? first_layer_width : nozzle; }
+    Unit width_on(int layer, Unit nozzle) const {
+        return layer == 0 && first_layer_width > 0 ? first_layer_width : nozzle;
+    }
 };
 
 }  // namespace ribvault

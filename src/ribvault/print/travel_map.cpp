@@ -16,8 +16,8 @@ int side(Point a, Point b, Point p) {
 
 /// Whether two closed segments have a point in common.
 bool meet(Point a, Point b, Point c, Point d) {
-    if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x) || std::max(a.y, b.y) < std::min(c.y, d.y) ||
-        std::max(c.y, d.y) < std::min(a.y, b.y))
+    if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x) ||
+        std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y))
         return false;
     return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0;
 }
@@ -88,7 +88,8 @@ bool TravelMap::detour(Point from, Point to, int contours_left, int& views_left,
     });
     if (last < first) return false;
     const auto along = [&](double t) {
-        return from + Point{round_to_lattice(t * static_cast<double>(to.x - from.x)), round_to_lattice(t * static_cast<double>(to.y - from.y))};
+        return from + Point{round_to_lattice(t * static_cast<double>(to.x - from.x)),
+                            round_to_lattice(t * static_cast<double>(to.y - from.y))};
     };
     const Contour* ring = nullptr;
     std::size_t enter = 0;

@@ -25,9 +25,10 @@ public:
     TravelMap(const Region& outline, const Region& cavity, const LayerPaths& layer);
 
     /// The way from one point inside the slice to another. Straight, unless that crosses the outline (decided exactly).
-    /// Then along the outer perimeter that follows the crossed contour, cut short wherever one sees farther, provided that
-    /// this stays inside and is at most `longest_detour` lattice units longer than straight (combing; Section 5.1 retracts
-    /// otherwise). The search looks at one perimeter a contour, three contours at most, and tries at most 400 views.
+    /// Then along the outer perimeter that follows the crossed contour, cut short wherever one sees farther, provided
+    /// that this stays inside and is at most `longest_detour` lattice units longer than straight (combing; Section 5.1
+    /// retracts otherwise). The search looks at one perimeter a contour, three contours at most, and tries at most 400
+    /// views.
     Travel travel(Point from, Point to, double longest_detour) const;
 
     /// Whether the straight way does not meet the outline; exact.

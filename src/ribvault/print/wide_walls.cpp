@@ -16,7 +16,8 @@ constexpr double arc_tolerance = 100;  ///< lattice units
 std::vector<Segment> centre_lines(const SupportForest& forest) {
     std::vector<Segment> lines;
     for (auto [e, end] = edges(forest); e != end; ++e)
-        if (forest[source(*e, forest)].wide) lines.push_back({forest[source(*e, forest)].at, forest[target(*e, forest)].at});
+        if (forest[source(*e, forest)].wide)
+            lines.push_back({forest[source(*e, forest)].at, forest[target(*e, forest)].at});
     for (auto [v, end] = vertices(forest); v != end; ++v)
         if (forest[*v].wide && out_degree(*v, forest) == 0) lines.push_back({forest[*v].at, forest[*v].at});
     return lines;
@@ -30,7 +31,8 @@ void append(Contour line, bool closed, Unit width, LayerPlan& plan) {
 
 /// What of an outline lies inside the cavity.
 void append_outline(Contour outline, const Region& cavity, const PointLocation& location, Unit width, LayerPlan& plan) {
-    const auto outside = std::find_if(outline.begin(), outline.end(), [&](Point p) { return location.locate(p) != Side::inside; });
+    const auto outside =
+        std::find_if(outline.begin(), outline.end(), [&](Point p) { return location.locate(p) != Side::inside; });
     const bool starts_outside = outside != outline.end();
     if (starts_outside) std::rotate(outline.begin(), outside, outline.end());
     cl::Path walk = to_clipper(outline);

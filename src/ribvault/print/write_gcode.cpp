@@ -46,7 +46,9 @@ struct Writer {
         text += " Y";
         append_decimal(text, p.y);
     }
-    void moved(Point step, double dz, double de, double mm_per_s) { moves.push_back({{to_mm(step.x), to_mm(step.y), dz, de}, mm_per_s}); }
+    void moved(Point step, double dz, double de, double mm_per_s) {
+        moves.push_back({{to_mm(step.x), to_mm(step.y), dz, de}, mm_per_s});
+    }
     void push_filament(double mm) {
         if (mm == 0) return;
         text += "G1 E";
@@ -100,7 +102,8 @@ struct Writer {
     /// The flow is that of a track at this speed.
     void dot(const ToolPath& path, Unit height, double mm_per_s) {
         const double area = std::numbers::pi / 4 * to_mm(path.width) * to_mm(path.width);
-        const double volume = area * to_mm(height), flow = mm_per_s * to_mm(path.width) * to_mm(height) / filament_area(printer);
+        const double volume = area * to_mm(height),
+                     flow = mm_per_s * to_mm(path.width) * to_mm(height) / filament_area(printer);
         text += "G1 E";
         append_decimal(text, next_push(volume / filament_area(printer)));
         feed(flow);
@@ -111,7 +114,8 @@ struct Writer {
     }
     void track(const ToolPath& path, Unit height, double mm_per_s, bool joined) {
         double volume_per_mm = to_mm(path.width) * to_mm(height);
-        // A stub shorter than a quarter of its width, on its own, gets a dot's filament: it is a dot, a little drawn out.
+        // A stub shorter than a quarter of its width, on its own, gets a dot's filament: it is a dot, a little drawn
+        // out.
         if (const double whole = length(path); !joined && 4 * whole < static_cast<double>(path.width))
             volume_per_mm *= std::numbers::pi / 4 * static_cast<double>(path.width) / whole;
         const double filament_per_unit = to_mm(1) * volume_per_mm / filament_area(printer);
@@ -137,7 +141,9 @@ struct Writer {
     }
 };
 
-double longest_detour(const PrinterSettings& printer) { return printer.longest_detour * static_cast<double>(units_per_mm); }
+double longest_detour(const PrinterSettings& printer) {
+    return printer.longest_detour * static_cast<double>(units_per_mm);
+}
 
 bool touch(TrackEnd a, TrackEnd b) { return 2 * length(b.at - a.at) <= static_cast<double>(a.width + b.width); }
 
@@ -152,9 +158,13 @@ double speed_of(const ToolPath& path, int layer, const PrinterSettings& printer)
     return is_support(path.kind) ? printer.support_speed : printer.print_speed;
 }
 
-int tool_of(const ToolPath& path, const PrinterSettings& printer) { return path.kind == TrackKind::external_support ? printer.support_extruder : 0; }
+int tool_of(const ToolPath& path, const PrinterSettings& printer) {
+    return path.kind == TrackKind::external_support ? printer.support_extruder : 0;
+}
 
-Unit height_of(int layer, const Settings& settings) { return layer == 0 ? settings.first_layer_height : settings.layer_height; }
+Unit height_of(int layer, const Settings& settings) {
+    return layer == 0 ? settings.first_layer_height : settings.layer_height;
+}
 
 }  // namespace
 
@@ -171,10 +181,12 @@ PrintStatistics& PrintStatistics::operator+=(const PrintStatistics& other) {
     return *this;
 }
 
-Unit top_of_layer(int layer, const Settings& settings) { return settings.first_layer_height + layer * settings.layer_height; }
+Unit top_of_layer(int layer, const Settings& settings) {
+    return settings.first_layer_height + layer * settings.layer_height;
+}
 
-LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Settings& settings, const PrinterSettings& printer,
-                      const std::vector<ToolPath>& beside) {
+LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Settings& settings,
+                      const PrinterSettings& printer, const std::vector<ToolPath>& beside) {
     const Unit height = height_of(layer.layer, settings);
     LayerText out;
     out.layer = layer.layer;
@@ -191,15 +203,19 @@ LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Setti
     for (const ToolPath& path : layer.paths) points += path.points.size() + 2;
     writer.text.reserve(128 + 40 * points);
     const PerimeterRows perimeters(layer, round_to_lattice(printer.surplus_clearance * units_per_mm));
-    const auto with_surplus = [&](const ToolPath& path) { return is_support(path.kind) && !perimeters.near(path.points.front()); };
+    const auto with_surplus = [&](const ToolPath& path) {
+        return is_support(path.kind) && !perimeters.near(path.points.front());
+    };
     const ToolPath* previous = nullptr;
     // `next` is printed after `path`, if anything is.
     const auto print = [&](const ToolPath& path, const ToolPath* next) {
-        const bool joined = path.on_track || (previous && end_of(*previous) == path.points.front()) || (next && next->points.front() == end_of(path));
+        const bool joined = path.on_track || (previous && end_of(*previous) == path.points.front()) ||
+                            (next && next->points.front() == end_of(path));
         const TrackEnd start{path.points.front(), path.width, tool_of(path, printer)};
         if (!previous) {
             out.first = start, out.surplus = with_surplus(path);
-        } else if (const TrackEnd end{end_of(*previous), previous->width, tool_of(*previous, printer)}; end.at != start.at || end.tool != start.tool) {
+        } else if (const TrackEnd end{end_of(*previous), previous->width, tool_of(*previous, printer)};
+                   end.at != start.at || end.tool != start.tool) {
             Travel way = map.travel(end.at, start.at, longest_detour(printer));
             // Between skirt and object, and along them, nothing keeps the nozzle inside.
             if (path.kind == TrackKind::skirt || previous->kind == TrackKind::skirt)
@@ -223,7 +239,8 @@ LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Setti
         previous = &path;
     };
     for (const ToolPath& path : beside) print(path, nullptr);
-    for (std::size_t i = 0; i < layer.paths.size(); ++i) print(layer.paths[i], i + 1 < layer.paths.size() ? &layer.paths[i + 1] : nullptr);
+    for (std::size_t i = 0; i < layer.paths.size(); ++i)
+        print(layer.paths[i], i + 1 < layer.paths.size() ? &layer.paths[i + 1] : nullptr);
     if (previous) out.last = TrackEnd{end_of(*previous), previous->width, tool_of(*previous, printer)};
     out.body = std::move(writer.text);
     out.statistics = writer.statistics;
@@ -241,7 +258,8 @@ std::string gcode_joint(const LayerText* below, const LayerText& layer, const Tr
         way = {{layer.first->at}, 0, false, 0};
         if (knows_start) way = map.travel(below->last->at, layer.first->at, longest_detour(printer));
     }
-    if (knows_start && (!layer.first || must_retract(way, *below->last, *layer.first, printer))) writer.retract(), retracted = true;
+    if (knows_start && (!layer.first || must_retract(way, *below->last, *layer.first, printer)))
+        writer.retract(), retracted = true;
     writer.text += layer.heading;
     if (layer.layer == 1 && printer.fan_percent > 0) {
         writer.text += "M106 S";
@@ -252,7 +270,8 @@ std::string gcode_joint(const LayerText* below, const LayerText& layer, const Tr
     if (layer.first) {
         // After the header the tool is T0; after a layer without tracks it may be either.
         const int tool = knows_start ? below->last->tool : 0;
-        if (layer.first->tool != tool || (below && !knows_start && printer.support_extruder > 0)) writer.change_tool(layer.first->tool);
+        if (layer.first->tool != tool || (below && !knows_start && printer.support_extruder > 0))
+            writer.change_tool(layer.first->tool);
         writer.travel(knows_start ? below->last->at : layer.first->at, way);
         if (retracted) writer.prime(layer.surplus);
     }

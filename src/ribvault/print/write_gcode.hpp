@@ -48,29 +48,29 @@ struct LayerText {
 /// Height of the top of a layer over the bed: layer 0 is `first_layer_height` high, all others `layer_height`.
 Unit top_of_layer(int layer, const Settings& settings);
 
-/// One layer: for every path `;TYPE:`, `;WIDTH:` (PrusaSlicer's names; internal supports are "Internal infill", external ones "Support
-/// material", thin walls "Gap
-/// fill"), a travel, then the track. `beside`: skirt and brim, printed first.
+/// One layer: for every path `;TYPE:`, `;WIDTH:` (PrusaSlicer's names; internal supports are "Internal infill",
+/// external ones "Support material", thin walls "Gap fill"), a travel, then the track. `beside`: skirt and brim,
+/// printed first.
 ///
-/// A travel goes as `map` says, and retracts when it leaves the island or when more of it than `retract_over` is over open
-/// air; not when the tracks that it joins touch at their ends (Section 5.1). After a retraction a support path is primed with
-/// (1 + prime_surplus) times the retraction, unless it starts within `surplus_clearance` of the centre line of a perimeter or
-/// a thin wall.
+/// A travel goes as `map` says, and retracts when it leaves the island or when more of it than `retract_over` is over
+/// open air; not when the tracks that it joins touch at their ends (Section 5.1). After a retraction a support path is
+/// primed with (1 + prime_surplus) times the retraction, unless it starts within `surplus_clearance` of the centre line
+/// of a perimeter or a thin wall.
 ///
-/// External supports are printed by the tool `support_extruder`. A change of tool comes with a retraction of the one and a prime of the other,
-/// nothing is purged.
+/// External supports are printed by the tool `support_extruder`. A change of tool comes with a retraction of the one
+/// and a prime of the other, nothing is purged.
 ///
 /// Coordinates are the lattice's, exactly. A track of width w extrudes w times layer height mm³ per mm, a rectangular
 /// cross-section as the paper counts material; a dot (path of one point) a disc of that width and height, in place. E
 /// has five decimals; its rounding is carried on, so that its sum over the tracks of a layer is within 0.00001 mm of
 /// the volume over the filament's cross-section.
 /// Precondition: every path has at least one point; the printer settings passed check_printer.
-LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Settings& settings, const PrinterSettings& printer,
-                      const std::vector<ToolPath>& beside = {});
+LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Settings& settings,
+                      const PrinterSettings& printer, const std::vector<ToolPath>& beside = {});
 
-/// What joins a layer to the one below (nullptr: to the header, which leaves the filament retracted): heading, the nozzle
-/// raised, the way to the first track by the same rules as inside a layer, `map` being the upper layer's. After a layer
-/// without tracks the filament stays retracted. Adds to `statistics`.
+/// What joins a layer to the one below (nullptr: to the header, which leaves the filament retracted): heading, the
+/// nozzle raised, the way to the first track by the same rules as inside a layer, `map` being the upper layer's. After
+/// a layer without tracks the filament stays retracted. Adds to `statistics`.
 std::string gcode_joint(const LayerText* below, const LayerText& layer, const TravelMap& map, const Settings& settings,
                         const PrinterSettings& printer, PrintStatistics& statistics);
 

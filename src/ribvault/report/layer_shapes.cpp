@@ -10,7 +10,9 @@ namespace {
 constexpr Unit units_per_um = units_per_mm / 1000;
 
 Point to_micrometre(Point p) {
-    const auto rounded = [](Unit u) { return (u + (u < 0 ? -units_per_um : units_per_um) / 2) / units_per_um * units_per_um; };
+    const auto rounded = [](Unit u) {
+        return (u + (u < 0 ? -units_per_um : units_per_um) / 2) / units_per_um * units_per_um;
+    };
     return {rounded(p.x), rounded(p.y)};
 }
 
@@ -75,7 +77,8 @@ LayerShapes shapes_of(const Slice& slice, const Region& cavity, const SupportFor
         shapes.vertices.push_back({.at = to_micrometre(s.at), .root = s.root, .wide = s.wide});
     }
     for (auto [e, end] = edges(forest); e != end; ++e)
-        shapes.edges.push_back({static_cast<std::uint32_t>(source(*e, forest)), static_cast<std::uint32_t>(target(*e, forest))});
+        shapes.edges.push_back(
+            {static_cast<std::uint32_t>(source(*e, forest)), static_cast<std::uint32_t>(target(*e, forest))});
     return shapes;
 }
 
@@ -125,7 +128,8 @@ std::string packed_shapes(const LayerShapes& shapes) {
     out.region(shapes.unsupported);
     out.natural(shapes.patches.size());
     for (const Segment& s : shapes.patches) out.point(s.a), out.point(s.b);
-    if (const std::vector<std::uint32_t> wide = marked(shapes, &SupportVertex::wide); !wide.empty()) pack_indices(out, wide);
+    if (const std::vector<std::uint32_t> wide = marked(shapes, &SupportVertex::wide); !wide.empty())
+        pack_indices(out, wide);
     return out.bytes();
 }
 

@@ -31,16 +31,19 @@ void append_element(std::string& svg, std::string_view style, const std::string&
     svg.append(" d=\"").append(data).append("\"/>\n");
 }
 
-/// The walls, each in its width. A track's end reaches half its width over the shell; walls of several tracks would reach farther
-/// there, even out of the object, than what is printed of them, which is clipped to the cavity (print/wide_walls.hpp).
-void append_tracks(std::string& svg, const SupportForest& forest, const Region& cavity, const Settings& settings, int layer) {
+/// The walls, each in its width. A track's end reaches half its width over the shell; walls of several tracks would
+/// reach farther there, even out of the object, than what is printed of them, which is clipped to the cavity
+/// (print/wide_walls.hpp).
+void append_tracks(std::string& svg, const SupportForest& forest, const Region& cavity, const Settings& settings,
+                   int layer) {
     std::set<Unit> widths;
     for (auto [v, end] = vertices(forest); v != end; ++v) widths.insert(wall_width(forest[*v], settings));
     for (const Unit width : widths) {
         std::string style(track_style);
         if (width > settings.nozzle) {
             const std::string id = "cavity" + std::to_string(layer);  // a contact sheet holds several layers
-            svg.append("<clipPath id=\"" + id + "\"><path clip-rule=\"evenodd\" d=\"" + region_data(cavity) + "\"/></clipPath>\n");
+            svg.append("<clipPath id=\"" + id + "\"><path clip-rule=\"evenodd\" d=\"" + region_data(cavity) +
+                       "\"/></clipPath>\n");
             style += " clip-path=\"url(#" + id + ")\"";
         }
         const auto drawn = [&](const SupportVertex& v) { return wall_width(v, settings) == width; };

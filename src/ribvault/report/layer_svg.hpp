@@ -24,12 +24,12 @@ struct LayerDrawing {
 };
 
 /// Draws layer i. The shell B_i (slice without cavity) is grey; every wall of S_i has the width in which it is printed
-/// (wall_width), with round ends and the wall's centre line, on which no track runs where there is an even number of them. What
-/// several tracks side by side make up ends with the cavity, as these tracks do. Roots are blue squares, junctions (valence 3 or
-/// more) orange discs, tips black triangles, dots (isolated vertices) purple diamonds. A root that is a junction has both marks. `unsupported`, what of layer
-/// i + 1 had no support before S_i grew, is translucent vermilion; it may be empty. Marks differ in shape, and the
-/// colours are told apart without red and green (Okabe and Ito's palette). Precondition: the cavity lies inside the
-/// slice. Coordinates are rounded to 1 µm.
+/// (wall_width), with round ends and the wall's centre line, on which no track runs where there is an even number of
+/// them. What several tracks side by side make up ends with the cavity, as these tracks do. Roots are blue squares,
+/// junctions (valence 3 or more) orange discs, tips black triangles, dots (isolated vertices) purple diamonds. A root
+/// that is a junction has both marks. `unsupported`, what of layer i + 1 had no support before S_i grew, is translucent
+/// vermilion; it may be empty. Marks differ in shape, and the colours are told apart without red and green (Okabe and
+/// Ito's palette). Precondition: the cavity lies inside the slice. Coordinates are rounded to 1 µm.
 LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportForest& forest,
                         const Region& unsupported, const Settings& settings);
 

@@ -12,7 +12,8 @@ namespace ribvault {
 
 inline constexpr const char* layers_schema = "ribvault-layers/1";
 
-/// The first line, without its line end: schema "ribvault-layers/1" (docs/layers-file.md, docs/layers-file.schema.json).
+/// The first line, without its line end: schema "ribvault-layers/1" (docs/layers-file.md,
+/// docs/layers-file.schema.json).
 std::string layers_header(const RunReport& report);
 
 /// The line of one layer, without its line end: the layer's numbers as in the report, and `shapes` (shapes_json).
@@ -22,8 +23,8 @@ std::string layers_line(const LayerReport& layer, const std::string& shapes);
 std::string page_facts(const std::string& header);
 
 /// A layers file, read line by line; memory does not depend on the number of layers. Throws Error (unreadable) with the
-/// file, the line and what is wrong: no such file, of another kind or version, no JSON, a field that is missing or no number
-/// where there should be one, a layer out of order, fewer layers than the first line says.
+/// file, the line and what is wrong: no such file, of another kind or version, no JSON, a field that is missing or no
+/// number where there should be one, a layer out of order, fewer layers than the first line says.
 class LayersFile {
 public:
     explicit LayersFile(std::filesystem::path file);

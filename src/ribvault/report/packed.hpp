@@ -11,22 +11,26 @@
 
 namespace ribvault {
 
-/// Appends numbers to a text of bytes: seven bits a byte, lowest first, the top bit for "more"; the sign in the lowest bit.
-/// Coordinates are rounded to 0.01 mm and relative to the point before.
+/// Appends numbers to a text of bytes: seven bits a byte, lowest first, the top bit for "more"; the sign in the lowest
+/// bit. Coordinates are rounded to 0.01 mm and relative to the point before.
 class Packed {
 public:
     void natural(std::uint64_t value) {
         for (; value >= 128; value >>= 7) bytes_ += static_cast<char>((value & 127) | 128);
         bytes_ += static_cast<char>(value);
     }
-    void whole(std::int64_t value) { natural(value < 0 ? 2 * static_cast<std::uint64_t>(-(value + 1)) + 1 : 2 * static_cast<std::uint64_t>(value)); }
+    void whole(std::int64_t value) {
+        natural(value < 0 ? 2 * static_cast<std::uint64_t>(-(value + 1)) + 1 : 2 * static_cast<std::uint64_t>(value));
+    }
     /// A text and its length.
     void text(std::string_view value) {
         natural(value.size());
         bytes_ += value;
     }
     void point(Point p) {
-        const auto hundredths = [](Unit u) { return static_cast<std::int64_t>(std::llround(static_cast<double>(u) * 100 / units_per_mm)); };
+        const auto hundredths = [](Unit u) {
+            return static_cast<std::int64_t>(std::llround(static_cast<double>(u) * 100 / units_per_mm));
+        };
         const std::int64_t x = hundredths(p.x), y = hundredths(p.y);
         whole(x - x_), whole(y - y_);
         x_ = x, y_ = y;

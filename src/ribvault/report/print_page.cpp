@@ -23,12 +23,13 @@ Json rounded(double value, double places = 1000) {
 Json pieces(const std::vector<HangingPiece>& all) {
     Json list = Json::array();
     for (const HangingPiece& p : all)
-        list.push_back({p.feature, p.line, rounded(p.from[0]), rounded(p.from[1]), rounded(p.to[0]), rounded(p.to[1]), rounded(p.distance_mm.hi)});
+        list.push_back({p.feature, p.line, rounded(p.from[0]), rounded(p.from[1]), rounded(p.to[0]), rounded(p.to[1]),
+                        rounded(p.distance_mm.hi)});
     return list;
 }
 
-/// Per feature of the layer: its index, the length of its centre lines in mm, and length times width times height in mm³ (of dots:
-/// a disc's area times height).
+/// Per feature of the layer: its index, the length of its centre lines in mm, and length times width times height in
+/// mm³ (of dots: a disc's area times height).
 Json lengths(const GcodeLayer& layer) {
     std::map<int, std::array<double, 2>> sums;
     for (const GcodeTrack& t : layer.tracks) {
@@ -46,8 +47,9 @@ Json lengths(const GcodeLayer& layer) {
 Json numbers(const GcodeLayer& layer, const HangingLayer& hanging) {
     Json regions = Json::array();
     for (const HangingRegion& r : hanging.regions)
-        regions.push_back({rounded(r.area_mm2.lo, 1e6), rounded(r.area_mm2.hi, 1e6), rounded(r.distance_mm.hi), rounded(r.witness[0]),
-                           rounded(r.witness[1]), r.lines.empty() ? 0 : r.lines.front(), r.features, boundary_data(r.boundary, YAxis::up)});
+        regions.push_back({rounded(r.area_mm2.lo, 1e6), rounded(r.area_mm2.hi, 1e6), rounded(r.distance_mm.hi),
+                           rounded(r.witness[0]), rounded(r.witness[1]), r.lines.empty() ? 0 : r.lines.front(),
+                           r.features, boundary_data(r.boundary, YAxis::up)});
     return {{"layer", hanging.layer},   {"z", rounded(hanging.z_mm)},
             {"height", rounded(hanging.height_mm)},
             {"bed", hanging.on_bed},    {"length", rounded(hanging.length_mm)},
@@ -78,7 +80,12 @@ std::string fixed(double value, int places) {
 Json facts(const GcodePrint& print, const PrintReport& r) {
     Json features = Json::array();
     for (const HangingFeature& f : r.features) {
-        Json j{{"name", f.name}, {"kind", f.kind}, {"judged", f.judged}, {"tracks", f.tracks}, {"length", rounded(f.length_mm)}, {"hangs", rounded(f.unsupported_mm.hi)}};
+        Json j{{"name", f.name},
+               {"kind", f.kind},
+               {"judged", f.judged},
+               {"tracks", f.tracks},
+               {"length", rounded(f.length_mm)},
+               {"hangs", rounded(f.unsupported_mm.hi)}};
         if (f.worst_layer >= 0) j["worst"] = rounded(f.worst_mm.hi);
         features.push_back(std::move(j));
     }
@@ -86,21 +93,35 @@ Json facts(const GcodePrint& print, const PrintReport& r) {
     for (const GcodeLayer& layer : print.layers)
         for (const GcodePoint& p : layer.points) {
             const double x = to_double(p.x), y = to_double(p.y);
-            box[0] = std::min(box[0], x), box[1] = std::min(box[1], y), box[2] = std::max(box[2], x), box[3] = std::max(box[3], y);
+            box[0] = std::min(box[0], x), box[1] = std::min(box[1], y), box[2] = std::max(box[2], x),
+            box[3] = std::max(box[3], y);
         }
     const std::string name = r.input_path.substr(r.input_path.find_last_of("/\\") + 1);
     const std::string verdict = r.supported ? "Supported on all " + std::to_string(r.layer_count) + " layers."
-                                            : "Hangs on " + std::to_string(r.layers_unsupported) + " of " + std::to_string(r.layer_count) + " layers.";
-    const std::string rule = (r.flavour == "unknown" ? "" : r.flavour + ", ") + "ρ = " + fixed(r.support_radius_mm, 3) + " mm (" + r.support_radius_source + ")" + (r.inside ? ", inside the outline of the layer below" : "") +
-                             (r.support_gap_mm > 0 ? ", removal gap " + fixed(r.support_gap_mm, 3) + " mm" : "") +
-                             (r.support_gap_layers > 0 ? ", " + std::to_string(r.support_gap_layers) + " layers left empty over supports" : "") + (r.bed_only ? ", supports on the bed alone" : "") + "; ";
+                                            : "Hangs on " + std::to_string(r.layers_unsupported) + " of " +
+                                                  std::to_string(r.layer_count) + " layers.";
+    const std::string rule =
+        (r.flavour == "unknown" ? "" : r.flavour + ", ") + "ρ = " + fixed(r.support_radius_mm, 3) + " mm (" +
+        r.support_radius_source + ")" + (r.inside ? ", inside the outline of the layer below" : "") +
+        (r.support_gap_mm > 0 ? ", removal gap " + fixed(r.support_gap_mm, 3) + " mm" : "") +
+        (r.support_gap_layers > 0 ? ", " + std::to_string(r.support_gap_layers) + " layers left empty over supports"
+                                  : "") +
+        (r.bed_only ? ", supports on the bed alone" : "") + "; ";
     const bool all = r.unsupported_mm.hi == 0 && r.area_mm2.hi == 0;
     const std::string found = all ? "all " + fixed(r.length_mm, 0) + " mm of tracks have material within ρ below."
-                                  : fixed(r.unsupported_mm.hi, 1) + " of " + fixed(r.length_mm, 0) + " mm and " + fixed(r.area_mm2.lo, 2) + " to " +
-                                        fixed(r.area_mm2.hi, 2) + " mm² have no material within ρ below.";
+                                  : fixed(r.unsupported_mm.hi, 1) + " of " + fixed(r.length_mm, 0) + " mm and " +
+                                        fixed(r.area_mm2.lo, 2) + " to " + fixed(r.area_mm2.hi, 2) +
+                                        " mm² have no material within ρ below.";
     const std::string words = rule + found + (r.cut.empty() ? "" : " The file is cut off: " + r.cut + ".");
-    return {{"kind", "gcode"}, {"name", name}, {"supported", r.supported}, {"verdict", verdict}, {"words", words}, {"bridges", r.longest_bridge_mm.has_value()},
-            {"rho", r.support_radius_mm}, {"box", box}, {"features", features}};
+    return {{"kind", "gcode"},
+            {"name", name},
+            {"supported", r.supported},
+            {"verdict", verdict},
+            {"words", words},
+            {"bridges", r.longest_bridge_mm.has_value()},
+            {"rho", r.support_radius_mm},
+            {"box", box},
+            {"features", features}};
 }
 
 }  // namespace

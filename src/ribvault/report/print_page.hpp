@@ -7,8 +7,8 @@
 
 namespace ribvault {
 
-/// Adds the print as a run: every layer with its tracks (rounded to 0.01 mm), violations of equations (1) and (2), figures by
-/// feature type.
+/// Adds the print as a run: every layer with its tracks (rounded to 0.01 mm), violations of equations (1) and (2),
+/// figures by feature type.
 void append_print(RunPage& page, const GcodePrint& print, const PrintReport& report);
 
 }  // namespace ribvault

@@ -91,7 +91,8 @@ struct PrintReport {
     double min_area_mm2 = 0;
     bool boundaries = false;               ///< whether the JSON has the regions' boundaries
     bool inside = false;  ///< only what lies inside the outline of the layer below was judged
-    double support_gap_mm = 0;     ///< what lies within this and half a nozzle of the object's tracks counted as held up by them
+    /// What lies within this and half a nozzle of the object's tracks counted as held up by them.
+    double support_gap_mm = 0;
     int support_gap_layers = 0;    ///< the object could lie on material so many layers farther down
     bool bed_only = false;         ///< supports had to lie on supports
 
@@ -115,7 +116,8 @@ void sum_up(PrintReport& report);
 /// Indices of the layers' entries in which most hangs, worst first: by unsupported area, then length, then layer.
 std::vector<std::size_t> worst_layers(const PrintReport& report, std::size_t most);
 
-/// Schema "ribvault-verify/1" (docs/verify-command.md), one line a layer; what differs between runs is in "machine", last.
+/// Schema "ribvault-verify/1" (docs/verify-command.md), one line a layer; what differs between runs is in "machine",
+/// last.
 std::string to_json(const PrintReport& report);
 
 }  // namespace ribvault

@@ -37,7 +37,10 @@ Json feature(const HangingFeature& f) {
            {"bridged_mm", bounds(f.bridged_mm)},
            {"worst", nullptr}};
     if (f.worst_layer >= 0)
-        j["worst"] = {{"distance_mm", bounds(f.worst_mm)}, {"layer", f.worst_layer}, {"at_mm", point(f.worst_at)}, {"line", f.worst_line}};
+        j["worst"] = {{"distance_mm", bounds(f.worst_mm)},
+                      {"layer", f.worst_layer},
+                      {"at_mm", point(f.worst_at)},
+                      {"line", f.worst_line}};
     return j;
 }
 
@@ -77,7 +80,10 @@ Json boundary(const HangingRegion& region) {
     Json curves = Json::array(), vertices = Json::array(), components = Json::array();
     for (std::size_t k = 0; k < b.curves.size(); ++k) curves.push_back(curve(b.curves[k], region.curve_lines[k]));
     for (const BoundaryVertex& v : b.vertices)
-        vertices.push_back({{"curves", {v.first, v.second}}, {"root", v.root}, {"x_mm", bounds({v.x[0], v.x[1]})}, {"y_mm", bounds({v.y[0], v.y[1]})}});
+        vertices.push_back({{"curves", {v.first, v.second}},
+                            {"root", v.root},
+                            {"x_mm", bounds({v.x[0], v.x[1]})},
+                            {"y_mm", bounds({v.y[0], v.y[1]})}});
     for (const RegionComponent& c : b.components) {
         Json loops = Json::array();
         for (const BoundaryLoop& loop : c.loops) {
@@ -154,21 +160,30 @@ std::string to_json(const PrintReport& r) {
                         {"support_gap_mm", r.support_gap_mm},
                         {"support_gap_layers", r.support_gap_layers},
                         {"bed_only", r.bed_only}};
-    const Json verdict{{"supported", r.supported}, {"layers", r.layer_count}, {"layers_unsupported", unsupported}, {"stages", stages(r.stages)}};
+    const Json verdict{{"supported", r.supported},
+                       {"layers", r.layer_count},
+                       {"layers_unsupported", unsupported},
+                       {"stages", stages(r.stages)}};
     const Json totals{{"length_mm", measured(r.length_mm)},
                       {"unsupported_mm", bounds(r.unsupported_mm)},
                       {"bridged_mm", bounds(r.bridged_mm)},
                       {"area_mm2", bounds(r.area_mm2)}};
-    const Json machine{{"threads", r.threads}, {"seconds", r.seconds}, {"read_seconds", r.read_seconds}, {"peak_memory_mb", r.peak_memory_mb}};
+    const Json machine{{"threads", r.threads},
+                       {"seconds", r.seconds},
+                       {"read_seconds", r.read_seconds},
+                       {"peak_memory_mb", r.peak_memory_mb}};
     std::string text = "{\n\"schema\": \"ribvault-verify/1\",\n";
-    const auto member = [&](const char* name, const Json& j) { text += std::string("\"") + name + "\": " + text_of(j) + ",\n"; };
+    const auto member = [&](const char* name, const Json& j) {
+        text += std::string("\"") + name + "\": " + text_of(j) + ",\n";
+    };
     member("program", {{"name", "ribvault"}, {"version", r.version}});
     member("input", input);
     member("settings", settings);
     member("verdict", verdict);
     member("totals", totals);
     text += "\"features\": [";
-    for (std::size_t k = 0; k < r.features.size(); ++k) text += (k > 0 ? ",\n" : "\n") + text_of(feature(r.features[k]));
+    for (std::size_t k = 0; k < r.features.size(); ++k)
+        text += (k > 0 ? ",\n" : "\n") + text_of(feature(r.features[k]));
     text += "\n],\n\"layers\": [";
     for (std::size_t k = 0; k < r.layers.size(); ++k) text += (k > 0 ? ",\n" : "\n") + text_of(layer(r, r.layers[k]));
     text += "\n],\n\"machine\": " + text_of(machine) + "\n}\n";

@@ -19,9 +19,10 @@ struct PrintedLine {
 };
 std::vector<PrintedLine> printed_lines(const GcodeLayer& layer);
 
-/// One entry of the report as an SVG file, one unit a mm, y upwards on the bed: the material directly below in grey, tracks in
-/// blue with their true widths, bridges in green, what violates equation (1) in vermilion and equation (2) in a lighter one,
-/// and a ring at the largest region's witness. Colours are told apart without red and green (Okabe and Ito).
+/// One entry of the report as an SVG file, one unit a mm, y upwards on the bed: the material directly below in grey,
+/// tracks in blue with their true widths, bridges in green, what violates equation (1) in vermilion and equation (2) in
+/// a lighter one, and a ring at the largest region's witness. Colours are told apart without red and green (Okabe and
+/// Ito).
 std::string printed_layer_svg(const GcodePrint& print, const PrintReport& report, std::size_t entry);
 
 }  // namespace ribvault

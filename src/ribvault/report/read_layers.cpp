@@ -50,7 +50,10 @@ constexpr Field layer_fields[] = {
     {"/print/supported", Kind::boolean},       {"/print/unsupported_mm/1", Kind::number}};
 
 /// Of "internal" and "external", where they are no null.
-constexpr Field hole_fields[] = {{"/area_mm2/0", Kind::number}, {"/area_mm2/1", Kind::number}, {"/witness_mm/0", Kind::number}, {"/witness_mm/1", Kind::number}};
+constexpr Field hole_fields[] = {{"/area_mm2/0", Kind::number},
+                                 {"/area_mm2/1", Kind::number},
+                                 {"/witness_mm/0", Kind::number},
+                                 {"/witness_mm/1", Kind::number}};
 
 std::string name_of(std::string pointer) {
     for (std::size_t k = 1; k < pointer.size(); ++k)
@@ -71,7 +74,8 @@ bool is(const Json& value, Kind kind) {
 }
 
 const char* described(Kind kind) {
-    static constexpr const char* words[] = {"a number", "a whole number", "true or false", "a text", "a list", "an object or null"};
+    static constexpr const char* words[] = {"a number", "a whole number", "true or false",
+                                            "a text",   "a list",         "an object or null"};
     return words[static_cast<std::size_t>(kind)];
 }
 
@@ -79,7 +83,8 @@ const Json& need(const Json& object, const Field& field) {
     const Json::json_pointer pointer(field.pointer);
     if (!object.contains(pointer)) throw Wrong{"has no " + name_of(field.pointer)};
     const Json& value = object[pointer];
-    if (!is(value, field.kind)) throw Wrong{"has no valid " + name_of(field.pointer) + ": expected " + described(field.kind)};
+    if (!is(value, field.kind))
+        throw Wrong{"has no valid " + name_of(field.pointer) + ": expected " + described(field.kind)};
     return value;
 }
 
@@ -136,7 +141,8 @@ LayerShapes shapes(const Json& layer) {
     LayerShapes s;
     s.slice = region(layer, "slice"), s.cavity = region(layer, "cavity"), s.unsupported = region(layer, "unsupported");
     for (const Json& p : need(layer, {"/vertices", Kind::list})) s.vertices.push_back({point(p, "vertices"), false});
-    for (const Json& v : need(layer, {"/roots", Kind::list})) s.vertices[index(v, s.vertices.size(), "roots")].root = true;
+    for (const Json& v : need(layer, {"/roots", Kind::list}))
+        s.vertices[index(v, s.vertices.size(), "roots")].root = true;
     for (const Json& e : need(layer, {"/edges", Kind::list})) {
         list(e, "edges", 2);
         s.edges.push_back({index(e[0], s.vertices.size(), "edges"), index(e[1], s.vertices.size(), "edges")});
@@ -151,7 +157,8 @@ LayerShapes shapes(const Json& layer) {
     return s;
 }
 
-constexpr const char* shape_names[] = {"slice", "cavity", "vertices", "roots", "edges", "unsupported", "patch_tracks", "wide"};
+constexpr const char* shape_names[] = {"slice", "cavity",      "vertices",     "roots",
+                                       "edges", "unsupported", "patch_tracks", "wide"};
 
 Json parsed(const std::string& line) {
     Json object = Json::parse(line, nullptr, false);
@@ -163,7 +170,8 @@ Json parsed(const std::string& line) {
 void check_schema(const Json& header) {
     const Json schema = header.contains("schema") ? header["schema"] : Json();
     if (schema == layers_schema) return;
-    const std::string wanted = std::string("; expected a layers file, schema ") + layers_schema + ", as `ribvault generate --layers` writes it";
+    const std::string wanted = std::string("; expected a layers file, schema ") + layers_schema +
+                               ", as `ribvault generate --layers` writes it";
     if (!schema.is_string()) throw Wrong{"has no \"schema\"" + wanted};
     throw Wrong{"is of schema " + schema.get<std::string>() + wanted};
 }
@@ -196,12 +204,14 @@ bool LayersFile::next(Layer& layer) {
         return false;
     }
     if (!more)
-        throw Error(ErrorKind::unreadable, path_.string() + " is cut off: it ends after " + std::to_string(expected) + " of " +
-                                               std::to_string(layer_count_) + " layers; write it again");
+        throw Error(ErrorKind::unreadable, path_.string() + " is cut off: it ends after " + std::to_string(expected) +
+                                               " of " + std::to_string(layer_count_) + " layers; write it again");
     try {
         Json object = parsed(line);
         check_numbers(object);
-        if (object["layer"] != expected) throw Wrong{"has layer " + object["layer"].dump() + " where layer " + std::to_string(expected) + " should be"};
+        if (object["layer"] != expected)
+            throw Wrong{"has layer " + object["layer"].dump() + " where layer " + std::to_string(expected) +
+                        " should be"};
         layer.shapes = shapes(object);
         for (const char* name : shape_names) object.erase(name);
         layer.numbers = object.dump();
@@ -212,7 +222,8 @@ bool LayersFile::next(Layer& layer) {
 }
 
 void LayersFile::fail(const std::string& what) const {
-    throw Error(ErrorKind::unreadable, path_.string() + (line_ > 0 ? ": line " + std::to_string(line_) + " " : " ") + what);
+    throw Error(ErrorKind::unreadable,
+                path_.string() + (line_ > 0 ? ": line " + std::to_string(line_) + " " : " ") + what);
 }
 
 bool LayersFile::read_line(std::string& line) {

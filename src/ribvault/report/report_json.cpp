@@ -278,7 +278,9 @@ std::string run_members(const RunReport& report, std::string_view separator) {
     member("tracks", tracks(report.tracks, report.settings));
     member("printer", printer(report.printer));
     Json candidates = Json::array();
-    for (const Candidate& c : report.candidates) candidates.push_back({{"narrow_bonus", c.narrow_bonus}, {"seed", c.seed}, {"support_length_mm", measured(c.length_mm)}});
+    for (const Candidate& c : report.candidates)
+        candidates.push_back(
+            {{"narrow_bonus", c.narrow_bonus}, {"seed", c.seed}, {"support_length_mm", measured(c.length_mm)}});
     member("candidates", candidates);
     member("verdict", summary(report.verdict));
     member("totals", totals(report.totals, report.layers.size()));

@@ -93,7 +93,8 @@ void RunPage::add_layer(std::string_view record) { stream_->add(record); }
 void RunPage::end_run(std::string_view facts) {
     stream_->end();
     stream_.reset();
-    take_("</script>\n<script type=\"application/json\" id=\"facts" + std::to_string(runs_++) + "\">" + script_safe(std::string(facts)) + "</script>\n");
+    take_("</script>\n<script type=\"application/json\" id=\"facts" + std::to_string(runs_++) + "\">" +
+          script_safe(std::string(facts)) + "</script>\n");
 }
 
 void RunPage::finish() {
@@ -108,7 +109,8 @@ std::string page_record(std::string_view numbers, std::string_view geometry) {
 }
 
 std::string script_safe(std::string json) {
-    for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at + 1)) json.replace(at, 1, "\\u003c");
+    for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at + 1))
+        json.replace(at, 1, "\\u003c");
     return json;
 }
 

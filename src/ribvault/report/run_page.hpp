@@ -1,4 +1,5 @@
-// The run page: one self-contained HTML file on which one can walk through the layers of one run, or of two side by side.
+// The run page: one self-contained HTML file on which one can walk through the layers of one run, or of two side by
+// side.
 #pragma once
 
 #include <functional>
@@ -10,8 +11,8 @@
 
 namespace ribvault {
 
-/// Writes the page piece by piece, so that memory does not depend on the number of layers. The page needs no network and no
-/// other file; its parts are in src/page. Layers travel as one deflated stream in base64.
+/// Writes the page piece by piece, so that memory does not depend on the number of layers. The page needs no network
+/// and no other file; its parts are in src/page. Layers travel as one deflated stream in base64.
 ///
 ///     RunPage page([&](std::string_view text) { file.write(text); });
 ///     page.begin_run();

@@ -22,7 +22,7 @@ struct LayerReport {
     double support_length_mm = 0;          ///< centre lines of S_i, through their junctions
     double support_length_bound_mm = 0;    ///< no internal supports here could be shorter; 0 where not asked for
     double support_printed_length_mm = 0;  ///< the same without the gaps of Section 4.4
-    double support_volume_mm3 = 0;         ///< of internal supports: printed length times d times the layer's height, and dots
+    double support_volume_mm3 = 0;  ///< of internal supports: printed length times d times the layer's height, and dots
     double external_support_printed_length_mm = 0;  ///< of external supports alone
     double external_support_volume_mm3 = 0;
     int gaps = 0;                          ///< branches that stop short of their junction
@@ -45,13 +45,15 @@ struct LayerReport {
     int wide_trees = 0;      ///< of these, printed with several tracks side by side
     int braces = 0;          ///< walls added here that give a long tree its second root
     double slenderness = 0;  ///< greatest free height over width of its walls (vault/wall_stability.hpp)
-    double slender_standing_mm = 0, slender_to_root_mm = 0;  ///< there: the wall's height above the layer, the way to a root
+    double slender_standing_mm = 0,
+           slender_to_root_mm = 0;  ///< there: the wall's height above the layer, the way to a root
     std::array<double, 2> slender_at{0, 0};                  ///< there, mm
     LayerVerdict verdict;    ///< equation (2) for this layer over the one below; layer 0 lies on the bed
     PrintVerdict print;      ///< the same for what is extruded
-    int closed_gaps = 0;     ///< branches printed up to their junction because a gap would have let something above hang
+    int closed_gaps = 0;  ///< branches printed up to their junction because a gap would have let something above hang
     int patches = 0;         ///< short tracks that hold what the shell's own tracks leave open
-    bool patch_in_gap = false;  ///< an external support is nearer than the removal gap to a patch of the object, here or on a layer of the gap above
+    bool patch_in_gap = false;  ///< an external support is nearer than the removal gap to a patch of the object, here
+                                ///< or on a layer of the gap above
     double patch_length_mm = 0;
     std::vector<GapClosing> closings;
 };
@@ -104,7 +106,7 @@ struct VerdictSummary {
     std::vector<ExternalOverhang> external_overhangs;
     std::vector<int> layers_with_patches_in_gap;
     StageCounts stages;
-    bool print_proved = false;               ///< what is extruded satisfies (2) on every layer, inside the outline below
+    bool print_proved = false;  ///< what is extruded satisfies (2) on every layer, inside the outline below
     std::vector<int> print_layers_refuted;
     std::array<double, 2> print_unsupported_mm{0, 0};  ///< enclosures of lengths of centre lines, sums over the layers
     std::array<double, 2> print_external_mm{0, 0};
@@ -134,7 +136,8 @@ struct RunReport {
     Settings settings;
     TrackSettings tracks;
     PrinterSettings printer;
-    std::vector<Candidate> candidates;  ///< swept before the run, the one used first; empty when nothing was left to choose
+    /// Swept before the run, the one used first; empty when nothing was left to choose.
+    std::vector<Candidate> candidates;
     std::vector<LayerReport> layers;
     RunTotals totals;
     VerdictSummary verdict;

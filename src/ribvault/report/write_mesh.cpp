@@ -111,7 +111,8 @@ void append_walls(const SupportForest& forest, Unit bottom, Unit top, const Sett
     for (auto [e, end] = edges(forest); e != end; ++e) {
         const Point a = forest[source(*e, forest)].at, b = forest[target(*e, forest)].at;
         if (a == b) continue;
-        const double l = length(b - a), half = 0.5 * static_cast<double>(wall_width(forest[source(*e, forest)], settings));
+        const double l = length(b - a),
+                     half = 0.5 * static_cast<double>(wall_width(forest[source(*e, forest)], settings));
         const double nx = -static_cast<double>(b.y - a.y) / l * half, ny = static_cast<double>(b.x - a.x) / l * half;
         const auto corner = [&](Point p, double side) {
             return Corner{static_cast<float>((static_cast<double>(p.x) + side * nx) / units_per_mm),

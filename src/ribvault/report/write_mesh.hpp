@@ -10,9 +10,9 @@
 namespace ribvault {
 
 /// Appends to `facets` the walls of one layer as binary STL triangles (50 bytes each): for every edge of S_i a closed
-/// box as wide as the wall is printed (wall_width) along the edge, from z = bottom to top. Ends are cut square; what has no
-/// length (dots) is left out. Of several tracks side by side the print leaves out what lies in the shell; the boxes do not.
-/// Coordinates are the lattice's in mm, rounded once to the floats of the format.
+/// box as wide as the wall is printed (wall_width) along the edge, from z = bottom to top. Ends are cut square; what
+/// has no length (dots) is left out. Of several tracks side by side the print leaves out what lies in the shell; the
+/// boxes do not. Coordinates are the lattice's in mm, rounded once to the floats of the format.
 void append_walls(const SupportForest& forest, Unit bottom, Unit top, const Settings& settings, std::string& facets);
 
 /// The 84 bytes before `facets` triangles in a binary STL file.

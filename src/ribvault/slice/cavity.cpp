@@ -10,29 +10,38 @@
 namespace ribvault {
 namespace {
 
-/// Does the distance to `near` not grow from `middle` of the piece to its side (1: left, -1: right)? It falls where the nearest point lies there. Where that is an end of `near` on the
-/// piece's own line, `near` must lead away to that side, and not back.
+/// Does the distance to `near` not grow from `middle` of the piece to its side (1: left, -1: right)? It falls where the
+/// nearest point lies there. Where that is an end of `near` on the piece's own line, `near` must lead away to that
+/// side, and not back.
 bool falls_to(int side, const Segment& piece, Point middle, const Segment& near) {
     const Point at = nearest_point(middle, near);
     const int where = orientation(piece.a, piece.b, at);
     if (where != 0) return where == side;
     if (at != near.a && at != near.b) return false;
     const Point end = at == near.a ? near.b : near.a, along = end - at, back = middle - at;
-    return orientation(piece.a, piece.b, end) == side && static_cast<Int128>(along.x) * back.x + static_cast<Int128>(along.y) * back.y >= 0;
+    return orientation(piece.a, piece.b, end) == side &&
+           static_cast<Int128>(along.x) * back.x + static_cast<Int128>(along.y) * back.y >= 0;
 }
 
-/// Is every point of the segment within radius of one of the tree's segments? A piece whose two ends are within the radius
-/// of the same segment is, because the set within a radius of a segment is convex. Right when it says yes: pieces begin at
-/// lattice points of the segment where it has any (ties along the axes stay ties), else at rounded middles, less than a unit
-/// beside it, and the radius is a unit smaller for each. Says no when halving eight times does not find such pieces. With `side`
-/// only segments count to which the distance does not grow on that side of the piece, or within `sure` of which the piece is.
-bool within_radius(const Segment& piece, const NearestSegment& tree, Unit radius, int side = 0, Unit sure = 0, int depth = 0) {
+/// Is every point of the segment within radius of one of the tree's segments? A piece whose two ends are within the
+/// radius of the same segment is, because the set within a radius of a segment is convex. Right when it says yes:
+/// pieces begin at lattice points of the segment where it has any (ties along the axes stay ties), else at rounded
+/// middles, less than a unit beside it, and the radius is a unit smaller for each. Says no when halving eight times
+/// does not find such pieces. With `side` only segments count to which the distance does not grow on that side of the
+/// piece, or within `sure` of which the piece is.
+bool within_radius(const Segment& piece, const NearestSegment& tree, Unit radius, int side = 0, Unit sure = 0,
+                   int depth = 0) {
     const Point way = piece.b - piece.a;
     const Unit steps = std::gcd(way.x, way.y);
-    const Point middle = steps > 1 ? Point{piece.a.x + way.x / steps * (steps / 2), piece.a.y + way.y / steps * (steps / 2)}
-                                   : Point{(piece.a.x + piece.b.x) / 2, (piece.a.y + piece.b.y) / 2};
-    const auto both_within = [&](const Segment& near, Unit r) { return compare_distance(piece.a, near, r) <= 0 && compare_distance(piece.b, near, r) <= 0; };
-    const auto holds = [&](const Segment& near) { return both_within(near, side == 0 || falls_to(side, piece, middle, near) ? radius : sure); };
+    const Point middle = steps > 1
+                             ? Point{piece.a.x + way.x / steps * (steps / 2), piece.a.y + way.y / steps * (steps / 2)}
+                             : Point{(piece.a.x + piece.b.x) / 2, (piece.a.y + piece.b.y) / 2};
+    const auto both_within = [&](const Segment& near, Unit r) {
+        return compare_distance(piece.a, near, r) <= 0 && compare_distance(piece.b, near, r) <= 0;
+    };
+    const auto holds = [&](const Segment& near) {
+        return both_within(near, side == 0 || falls_to(side, piece, middle, near) ? radius : sure);
+    };
     for (Point p : {middle, piece.a, piece.b}) {
         const Segment& near = tree.segments()[tree.nearest(p).index];
         if (holds(near)) return true;
@@ -49,13 +58,16 @@ bool within_radius(const Segment& piece, const NearestSegment& tree, Unit radius
            within_radius({middle, piece.b}, tree, radius, side, sure, depth + 1);
 }
 
-/// Is the sliver there only because `deep` is taken with the slack? Its edges must be within ρ of the shell, but those that
-/// follow an edge of C_{i+1} a rounding inside it (`inner` leaves that much of the empty cavity in the sliver): there the
-/// edge of C_{i+1} itself must be. And where an edge is within ρ by less than the slack, what it is near to must lie on the
-/// sliver's side of it, so that the distance falls from there into the sliver; else it may have a ridge inside.
-bool is_tie(const Region& sliver, const NearestSegment& shell, const NearestSegment& edges_above, Unit radius, Unit slack) {
+/// Is the sliver there only because `deep` is taken with the slack? Its edges must be within ρ of the shell, but those
+/// that follow an edge of C_{i+1} a rounding inside it (`inner` leaves that much of the empty cavity in the sliver):
+/// there the edge of C_{i+1} itself must be. And where an edge is within ρ by less than the slack, what it is near to
+/// must lie on the sliver's side of it, so that the distance falls from there into the sliver; else it may have a ridge
+/// inside.
+bool is_tie(const Region& sliver, const NearestSegment& shell, const NearestSegment& edges_above, Unit radius,
+            Unit slack) {
     if (edges_above.empty()) return false;
-    constexpr Unit margin = static_cast<Unit>(2 * clip_rounding);  // `inner` and its corners lie no farther from C_{i+1}'s edges
+    constexpr Unit margin =
+        static_cast<Unit>(2 * clip_rounding);  // `inner` and its corners lie no farther from C_{i+1}'s edges
     for (const Segment& e : edges_of(sliver)) {
         Box box;
         box.add(e.a), box.add(e.b);
@@ -123,7 +135,8 @@ Region overhang_over_cavity(const Cavity& cavity, const Slice& slice_above, cons
     return without_ties(hanging, cavity, above, s);
 }
 
-Region without_ties(const Region& hanging, const Cavity& cavity, const Cavity& above, const Settings& s, const std::function<bool(const Box&)>& indeed) {
+Region without_ties(const Region& hanging, const Cavity& cavity, const Cavity& above, const Settings& s,
+                    const std::function<bool(const Box&)>& indeed) {
     if (hanging.empty()) return {};
     NearestSegment shell, edge_above;
     Region kept;
@@ -133,7 +146,8 @@ Region without_ties(const Region& hanging, const Cavity& cavity, const Cavity& a
             shell = NearestSegment(edges_of(cavity.region));
             edge_above = NearestSegment(edges_of(above.region));
         }
-        if (!thin || !is_tie(piece, shell, edge_above, s.support_radius, s.slack) || (indeed && !indeed(bounding_box(piece))))
+        if (!thin || !is_tie(piece, shell, edge_above, s.support_radius, s.slack) ||
+            (indeed && !indeed(bounding_box(piece))))
             std::move(piece.begin(), piece.end(), std::back_inserter(kept));
     }
     // Grown by what rounding may have taken away.

@@ -36,15 +36,15 @@ Region uncross(Region region);
 /// Crossing contours are uncrossed.
 Cavity make_cavity(int layer, Region region, const Settings& settings);
 
-/// The pieces of `hanging` (inside cavity.deep, outside above.inner) that are there not only because `deep` is taken with the
-/// slack, each grown by what rounding may have taken away.
-/// A piece that looks like one, but of which `indeed` (where given, of its box) says no, stays.
+/// The pieces of `hanging` (inside cavity.deep, outside above.inner) that are there not only because `deep` is taken
+/// with the slack, each grown by what rounding may have taken away. A piece that looks like one, but of which `indeed`
+/// (where given, of its box) says no, stays.
 Region without_ties(const Region& hanging, const Cavity& cavity, const Cavity& above, const Settings& settings,
                     const std::function<bool(const Box&)>& indeed = nullptr);
 
-/// Where layer i + 1's shell hangs over cavity i farther than ρ from B_i: a superset of (B_{i+1} ∩ C_i) \ (B_i)^{ρ↑} that
-/// exceeds it by less than twice the slack. Slivers thinner than the slack
-/// whose boundary is within ρ of the shell (exactly decided: a 45° slope recedes by exactly ρ) are left out.
+/// Where layer i + 1's shell hangs over cavity i farther than ρ from B_i: a superset of (B_{i+1} ∩ C_i) \ (B_i)^{ρ↑}
+/// that exceeds it by less than twice the slack. Slivers thinner than the slack whose boundary is within ρ of the shell
+/// (exactly decided: a 45° slope recedes by exactly ρ) are left out.
 Region overhang_over_cavity(const Cavity& cavity, const Slice& slice_above, const Cavity& above,
                             const Settings& settings);
 

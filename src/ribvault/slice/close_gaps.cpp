@@ -14,7 +14,8 @@ double approximate_distance(const ExactPoint& a, const ExactPoint& b) {
 
 ClosedGaps close_gaps(std::vector<ExactContour> chains, int layer, Unit max_gap) {
     const double limit = to_mm(max_gap);
-    const ExactKernel::FT exact_limit = ExactKernel::FT(static_cast<double>(max_gap)) / ExactKernel::FT(static_cast<double>(units_per_mm));
+    const ExactKernel::FT exact_limit =
+        ExactKernel::FT(static_cast<double>(max_gap)) / ExactKernel::FT(static_cast<double>(units_per_mm));
     struct Pair {
         double distance;
         std::size_t from, to;  // the end of one chain, the start of another
@@ -24,7 +25,8 @@ ClosedGaps close_gaps(std::vector<ExactContour> chains, int layer, Unit max_gap)
         for (std::size_t b = 0; b < chains.size(); ++b) {
             const double d = approximate_distance(chains[a].back(), chains[b].front());
             if (d > limit * 1.001 + 1e-9) continue;
-            if (CGAL::squared_distance(chains[a].back(), chains[b].front()) <= exact_limit * exact_limit) pairs.push_back({d, a, b});
+            if (CGAL::squared_distance(chains[a].back(), chains[b].front()) <= exact_limit * exact_limit)
+                pairs.push_back({d, a, b});
         }
     std::sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) {
         return std::tie(p.distance, p.from, p.to) < std::tie(q.distance, q.from, q.to);
@@ -58,7 +60,8 @@ ClosedGaps close_gaps(std::vector<ExactContour> chains, int layer, Unit max_gap)
         if (next[a] != none) continue;
         double nearest = std::numeric_limits<double>::infinity();
         for (std::size_t b = 0; b < chains.size(); ++b)
-            if (previous[b] == none) nearest = std::min(nearest, approximate_distance(chains[a].back(), chains[b].front()));
+            if (previous[b] == none)
+                nearest = std::min(nearest, approximate_distance(chains[a].back(), chains[b].front()));
         const ExactPoint& at = chains[a].back();
         result.open.push_back({layer, approximate(at.x()), approximate(at.y()), nearest});
     }

@@ -15,8 +15,8 @@ struct ClosedGaps {
     std::vector<GapClosing> open;      ///< gaps that are too wide: from the end of a chain to the nearest open start
 };
 
-/// Joins ends of chains to starts of chains (a chain's own included), the nearest pair first, by straight segments no longer
-/// than max_gap (decided exactly). Chains that stay open are not among the contours.
+/// Joins ends of chains to starts of chains (a chain's own included), the nearest pair first, by straight segments no
+/// longer than max_gap (decided exactly). Chains that stay open are not among the contours.
 ClosedGaps close_gaps(std::vector<ExactContour> chains, int layer, Unit max_gap);
 
 }  // namespace ribvault

@@ -44,11 +44,14 @@ EdgeCrossings::EdgeCrossings(const Mesh& mesh, const Placement& placement, const
     const Rational step = placement.scale / Rational(grid);
     for (std::size_t k = 0; k < 2; ++k) {
         const Rational& offset = placement.offset[k];
-        axes_[k] = {step.get_num() * offset.get_den(), offset.get_num() * step.get_den(), step.get_den() * offset.get_den()};
+        axes_[k] = {step.get_num() * offset.get_den(), offset.get_num() * step.get_den(),
+                    step.get_den() * offset.get_den()};
     }
 }
 
-double EdgeCrossings::coordinate(std::size_t k, std::int32_t vertex) const { return placement_.sign[k] * mesh_.vertices(placement_.axis[k], vertex); }
+double EdgeCrossings::coordinate(std::size_t k, std::int32_t vertex) const {
+    return placement_.sign[k] * mesh_.vertices(placement_.axis[k], vertex);
+}
 
 mpz_class EdgeCrossings::on_grid(double value) const {
     const Binary b = binary(value);
@@ -61,7 +64,8 @@ ExactKernel::Point_2 EdgeCrossings::at(const std::array<std::int32_t, 2>& ends) 
     // With heights z0, z1 and the plane at n / d, all in units of the grid, the crossing is at
     // a + (n / d - z0) / (z1 - z0) * (b - a) = (a * run + rise * (b - a)) / run, run = d (z1 - z0), rise = n - d z0.
     const mpz_class z0 = on_grid(coordinate(2, ends[0]));
-    mpz_class run = plane_denominator_ * (on_grid(coordinate(2, ends[1])) - z0), rise = plane_numerator_ - plane_denominator_ * z0;
+    mpz_class run = plane_denominator_ * (on_grid(coordinate(2, ends[1])) - z0),
+              rise = plane_numerator_ - plane_denominator_ * z0;
     if (run < 0) run = -run, rise = -rise;
     std::array<mpq_class, 2> bed;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -71,7 +75,8 @@ ExactKernel::Point_2 EdgeCrossings::at(const std::array<std::int32_t, 2>& ends) 
         if (from == to)
             bed[k] = fraction(axis.factor * a + axis.shift, axis.denominator);
         else
-            bed[k] = fraction(axis.factor * (a * run + rise * (on_grid(to) - a)) + axis.shift * run, axis.denominator * run);
+            bed[k] =
+                fraction(axis.factor * (a * run + rise * (on_grid(to) - a)) + axis.shift * run, axis.denominator * run);
     }
     using Exact = ExactKernel::Exact_kernel::Point_2;
     using Lazy = CGAL::Lazy<ExactKernel::Approximate_kernel::Point_2, Exact, ExactKernel::E2A>;

@@ -9,15 +9,16 @@
 
 namespace ribvault {
 
-/// Where edges of a placed mesh cross one horizontal plane, exactly. The points' exact values are known from the start, as
-/// Slice promises, and come from few operations on integers: mesh coordinates are integers on a grid of 2^-grid_bits.
+/// Where edges of a placed mesh cross one horizontal plane, exactly. The points' exact values are known from the start,
+/// as Slice promises, and come from few operations on integers: mesh coordinates are integers on a grid of
+/// 2^-grid_bits.
 class EdgeCrossings {
 public:
     /// `plane`: mm over the bed. `grid_bits`: see mesh_grid_bits. Keeps references to mesh and placement.
     EdgeCrossings(const Mesh& mesh, const Placement& placement, const Rational& plane, long grid_bits);
 
-    /// The crossing of the edge between two vertices, mm on the bed. It depends on the ends' places and not on their order.
-    /// Precondition: the plane is not at the height of both.
+    /// The crossing of the edge between two vertices, mm on the bed. It depends on the ends' places and not on their
+    /// order. Precondition: the plane is not at the height of both.
     ExactKernel::Point_2 at(const std::array<std::int32_t, 2>& ends) const;
 
 private:

@@ -17,8 +17,9 @@ using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using ExactPolygon = CGAL::Polygon_2<ExactKernel>;
 using ExactPolygonWithHoles = CGAL::Polygon_with_holes_2<ExactKernel>;
 
-/// Enclosure of a coordinate by machine numbers, no wider than 2^-51 of its magnitude. A lazy number's own enclosure has no
-/// such bound: on a mesh edge nearly parallel to the plane it can be as long as the edge. Then the exact value is computed.
+/// Enclosure of a coordinate by machine numbers, no wider than 2^-51 of its magnitude. A lazy number's own enclosure
+/// has no such bound: on a mesh edge nearly parallel to the plane it can be as long as the edge. Then the exact value
+/// is computed.
 inline std::pair<double, double> tight_enclosure(const ExactKernel::FT& a) {
     const auto tight = [](const std::pair<double, double>& e) {
         return e.second - e.first <= 0x1p-51 * std::max(std::fabs(e.first), std::fabs(e.second));
@@ -33,7 +34,8 @@ inline double approximate(const ExactKernel::FT& a) {
     return lo + (hi - lo) / 2;
 }
 
-/// Disjoint regularised polygons with holes: outer boundaries counter-clockwise, holes clockwise. Coordinates in mm on the bed.
+/// Disjoint regularised polygons with holes: outer boundaries counter-clockwise, holes clockwise. Coordinates in mm on
+/// the bed.
 struct ExactPolygons {
     std::vector<ExactPolygonWithHoles> polygons;
 };

@@ -60,11 +60,12 @@ inline std::vector<Region> connected_pieces(const Region& region) {
 /// Lattice units that rounding may take away: see erode_slice.
 inline constexpr double clip_rounding = 3;
 
-/// What lies within `distance` of segments (of points, where one has no length), round ends and corners made of chords at
-/// most `arc_tolerance` units inside the arc.
+/// What lies within `distance` of segments (of points, where one has no length), round ends and corners made of chords
+/// at most `arc_tolerance` units inside the arc.
 inline Region offset(const std::vector<Segment>& lines, double distance, double arc_tolerance) {
     ClipperLib::ClipperOffset offsetter(2.0, arc_tolerance);
-    for (const Segment& s : lines) offsetter.AddPath({{s.a.x, s.a.y}, {s.b.x, s.b.y}}, ClipperLib::jtRound, ClipperLib::etOpenRound);
+    for (const Segment& s : lines)
+        offsetter.AddPath({{s.a.x, s.a.y}, {s.b.x, s.b.y}}, ClipperLib::jtRound, ClipperLib::etOpenRound);
     ClipperLib::Paths around;
     offsetter.Execute(around, distance);
     return from_clipper(around);

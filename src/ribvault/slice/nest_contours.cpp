@@ -10,7 +10,9 @@ namespace {
 struct Bounds {
     double x0, y0, x1, y1;
     bool meets(const Bounds& o) const { return x0 <= o.x1 && o.x0 <= x1 && y0 <= o.y1 && o.y0 <= y1; }
-    void add(const Bounds& o) { x0 = std::min(x0, o.x0), y0 = std::min(y0, o.y0), x1 = std::max(x1, o.x1), y1 = std::max(y1, o.y1); }
+    void add(const Bounds& o) {
+        x0 = std::min(x0, o.x0), y0 = std::min(y0, o.y0), x1 = std::max(x1, o.x1), y1 = std::max(y1, o.y1);
+    }
 };
 constexpr Bounds no_bounds{1e300, 1e300, -1e300, -1e300};
 

@@ -21,12 +21,14 @@ struct Edge {
 /// Edges between corners.
 std::vector<Edge> edges_of(const ExactPolygons& outline) {
     std::vector<Edge> edges;
-    // Where a facet's diagonal crosses the plane an edge has vertices on it, at another place in each slice: they are left out.
+    // Where a facet's diagonal crosses the plane an edge has vertices on it, at another place in each slice: they are
+    // left out.
     for_each_boundary(outline, [&](const ExactPolygon& polygon) {
         std::vector<ExactPoint> corners;
         const std::size_t n = polygon.size();
         for (std::size_t k = 0; k < n; ++k)
-            if (!CGAL::collinear(polygon[(k + n - 1) % n], polygon[k], polygon[(k + 1) % n])) corners.push_back(polygon[k]);
+            if (!CGAL::collinear(polygon[(k + n - 1) % n], polygon[k], polygon[(k + 1) % n]))
+                corners.push_back(polygon[k]);
         for (std::size_t k = 0; k < corners.size(); ++k) {
             const ExactSegment edge(corners[k], corners[(k + 1) % corners.size()]);
             edges.push_back({edge, edge.bbox()});
@@ -54,9 +56,11 @@ std::optional<ExactSegment> clipped(const ExactSegment& s, const ExactPoint& lo,
     return ExactSegment(s.source() + from * d, s.source() + to * d);
 }
 
-bool within(const ExactPoint& a, const ExactPoint& b, const std::vector<const Edge*>& near, const Number& square, int depth) {
+bool within(const ExactPoint& a, const ExactPoint& b, const std::vector<const Edge*>& near, const Number& square,
+            int depth) {
     for (const Edge* e : near)
-        if (CGAL::squared_distance(a, e->segment) <= square && CGAL::squared_distance(b, e->segment) <= square) return true;
+        if (CGAL::squared_distance(a, e->segment) <= square && CGAL::squared_distance(b, e->segment) <= square)
+            return true;
     if (depth == 8 || a == b) return false;
     const ExactPoint middle = CGAL::midpoint(a, b);
     return within(a, middle, near, square, depth + 1) && within(middle, b, near, square, depth + 1);
@@ -68,7 +72,8 @@ struct OutlineReach::Edges {
     std::vector<Edge> upper, lower;
 };
 
-OutlineReach::OutlineReach(const ExactPolygons& upper, const ExactPolygons& lower, Unit radius) : upper_(upper), lower_(lower), radius_(radius) {}
+OutlineReach::OutlineReach(const ExactPolygons& upper, const ExactPolygons& lower, Unit radius)
+    : upper_(upper), lower_(lower), radius_(radius) {}
 OutlineReach::~OutlineReach() = default;
 
 bool OutlineReach::holds_in(const Box& box) {

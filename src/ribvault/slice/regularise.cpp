@@ -53,7 +53,8 @@ template <class Circulator>
 ExactPolygon polygon_around(Circulator first) {
     ExactPolygon polygon;
     around(first, [&](Arrangement::Halfedge_const_handle halfedge) {
-        CGAL::exact(halfedge->target()->point());  // before threads share it: what asks for it later changes its enclosure (Slice)
+        CGAL::exact(halfedge->target()
+                        ->point());  // before threads share it: what asks for it later changes its enclosure (Slice)
         polygon.push_back(halfedge->target()->point());
     });
     return polygon;
@@ -87,7 +88,8 @@ ExactPolygons regularise(const std::vector<ExactContour>& contours) {
     for (auto face = arrangement.faces_begin(); face != arrangement.faces_end(); ++face) {
         if (face->is_unbounded() || !solid(face)) continue;
         ExactPolygonWithHoles polygon(polygon_around(face->outer_ccb()));
-        for (auto hole = face->inner_ccbs_begin(); hole != face->inner_ccbs_end(); ++hole) polygon.add_hole(polygon_around(*hole));
+        for (auto hole = face->inner_ccbs_begin(); hole != face->inner_ccbs_end(); ++hole)
+            polygon.add_hole(polygon_around(*hole));
         result.polygons.push_back(std::move(polygon));
     }
     return result;

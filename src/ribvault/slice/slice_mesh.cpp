@@ -17,17 +17,19 @@ namespace {
 std::string describe(const std::vector<GapClosing>& gaps, std::size_t count) {
     std::ostringstream text;
     for (std::size_t k = 0; k < std::min<std::size_t>(gaps.size(), 3); ++k)
-        text << (k ? "; " : "") << gaps[k].length << " mm wide on layer " << gaps[k].layer << " at (" << gaps[k].x << ", "
-             << gaps[k].y << ") mm";
+        text << (k ? "; " : "") << gaps[k].length << " mm wide on layer " << gaps[k].layer << " at (" << gaps[k].x
+             << ", " << gaps[k].y << ") mm";
     if (count > 3) text << "; ...";
     return text.str();
 }
 
 [[noreturn]] void refuse_open(std::vector<GapClosing> gaps, const std::string& where, const Settings& settings) {
-    std::stable_sort(gaps.begin(), gaps.end(), [](const GapClosing& a, const GapClosing& b) { return a.length > b.length; });
+    std::stable_sort(gaps.begin(), gaps.end(),
+                     [](const GapClosing& a, const GapClosing& b) { return a.length > b.length; });
     std::ostringstream text;
-    text << "the mesh is open: " << gaps.size() << (gaps.size() == 1 ? " gap" : " gaps") << " wider than " << to_mm(settings.max_gap)
-         << " mm " << where << " (" << describe(gaps, gaps.size()) << "); repair the mesh, or allow wider gaps with --max-gap";
+    text << "the mesh is open: " << gaps.size() << (gaps.size() == 1 ? " gap" : " gaps") << " wider than "
+         << to_mm(settings.max_gap) << " mm " << where << " (" << describe(gaps, gaps.size())
+         << "); repair the mesh, or allow wider gaps with --max-gap";
     throw Error(ErrorKind::bad_geometry, text.str());
 }
 
@@ -47,21 +49,26 @@ Rational Slicer::plane_height(int layer) const {
 
 Slicer::Slicer(const Mesh& mesh, const Placement& placement, const Settings& settings)
     : mesh_(mesh), placement_(placement), settings_(settings), grid_bits_(mesh_grid_bits(mesh)) {
-    const auto vertices = static_cast<std::size_t>(mesh.vertices.cols()), triangles = static_cast<std::size_t>(mesh.triangles.cols());
+    const auto vertices = static_cast<std::size_t>(mesh.vertices.cols()),
+               triangles = static_cast<std::size_t>(mesh.triangles.cols());
     const auto height = [&](std::size_t v) {
         return placement_.sign[2] * mesh_.vertices(placement_.axis[2], static_cast<Eigen::Index>(v));
     };
     // In the file's units, plane i lies at base + i * step for i >= 1. A vertex's count of planes is exact: the double
     // quotient is off by far less than one, and whether the nearest plane lies at or below is compared exactly.
-    const Rational base = (plane_height(1) - placement_.offset[2]) / placement_.scale - (plane_height(2) - plane_height(1)) / placement_.scale;
+    const Rational base = (plane_height(1) - placement_.offset[2]) / placement_.scale -
+                          (plane_height(2) - plane_height(1)) / placement_.scale;
     const Rational step = (plane_height(2) - plane_height(1)) / placement_.scale;
     const Rational lowest = (plane_height(0) - placement_.offset[2]) / placement_.scale;
     const double base_d = base.get_d(), step_d = step.get_d();
-    const auto plane = [&](std::int64_t i) { return i == 0 ? lowest : Rational(base + step * Rational(static_cast<long>(i))); };
+    const auto plane = [&](std::int64_t i) {
+        return i == 0 ? lowest : Rational(base + step * Rational(static_cast<long>(i)));
+    };
     planes_below_.resize(vertices);
     for (std::size_t v = 0; v < vertices; ++v) {
         const double z = height(v), quotient = (z - base_d) / step_d;
-        std::int64_t count = static_cast<std::int64_t>(std::floor(std::clamp(quotient, 0.0, 1e9))) + 1;  // planes 0 .. floor
+        std::int64_t count =
+            static_cast<std::int64_t>(std::floor(std::clamp(quotient, 0.0, 1e9))) + 1;  // planes 0 .. floor
         // base_d and step_d are cut off (2^-52), difference and quotient rounded (2^-53): together less than this.
         const double bound = 0x1p-49 * ((std::fabs(z) + std::fabs(base_d)) / step_d + std::fabs(quotient) + 1);
         if (quotient < 1.5 || std::fabs(quotient - std::round(quotient)) <= bound) {
@@ -84,7 +91,8 @@ Slicer::Slicer(const Mesh& mesh, const Placement& placement, const Settings& set
     };
     std::vector<std::array<std::int32_t, 2>> corner_ends(order.size());
     for (std::uint32_t k = 0; k < order.size(); ++k) corner_ends[k] = ends(k);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return corner_ends[a] < corner_ends[b]; });
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return corner_ends[a] < corner_ends[b]; });
     for (std::size_t k = 0; k < order.size(); ++k) {
         if (k == 0 || corner_ends[order[k]] != corner_ends[order[k - 1]]) edge_ends_.push_back(corner_ends[order[k]]);
         edge_of_[order[k]] = static_cast<std::int32_t>(edge_ends_.size()) - 1;
@@ -93,7 +101,8 @@ Slicer::Slicer(const Mesh& mesh, const Placement& placement, const Settings& set
     const auto span = [&](std::size_t t) {
         std::int32_t lo = std::numeric_limits<std::int32_t>::max(), hi = 0;
         for (int k = 0; k < 3; ++k) {
-            const std::int32_t c = planes_below_[static_cast<std::size_t>(mesh_.triangles(k, static_cast<Eigen::Index>(t)))];
+            const std::int32_t c =
+                planes_below_[static_cast<std::size_t>(mesh_.triangles(k, static_cast<Eigen::Index>(t)))];
             lo = std::min(lo, c), hi = std::max(hi, c);
         }
         return std::pair(lo, hi);
@@ -105,8 +114,11 @@ Slicer::Slicer(const Mesh& mesh, const Placement& placement, const Settings& set
     layer_triangles_.resize(layer_starts_.back());
     std::vector<std::uint32_t> next(layer_starts_.begin(), layer_starts_.end() - 1);
     for (std::size_t t = 0; t < triangles; ++t)
-        for (auto [i, hi] = span(t); i < hi; ++i) layer_triangles_[next[static_cast<std::size_t>(i)]++] = static_cast<std::uint32_t>(t);
-    while (layers_ > 0 && layer_starts_[static_cast<std::size_t>(layers_)] == layer_starts_[static_cast<std::size_t>(layers_) - 1]) --layers_;
+        for (auto [i, hi] = span(t); i < hi; ++i)
+            layer_triangles_[next[static_cast<std::size_t>(i)]++] = static_cast<std::uint32_t>(t);
+    while (layers_ > 0 &&
+           layer_starts_[static_cast<std::size_t>(layers_)] == layer_starts_[static_cast<std::size_t>(layers_) - 1])
+        --layers_;
 }
 
 Slicer::Contours Slicer::trace(int layer) const {
@@ -114,7 +126,8 @@ Slicer::Contours Slicer::trace(int layer) const {
         int sign = placement_.sign[0] * placement_.sign[1] * placement_.sign[2];
         for (int i = 0; i < 3; ++i)
             for (int j = i + 1; j < 3; ++j)
-                if (placement_.axis[static_cast<std::size_t>(i)] > placement_.axis[static_cast<std::size_t>(j)]) sign = -sign;
+                if (placement_.axis[static_cast<std::size_t>(i)] > placement_.axis[static_cast<std::size_t>(j)])
+                    sign = -sign;
         return sign < 0;
     }();
     // Every crossed triangle leads from one mesh edge to another, material to the left seen from above.
@@ -128,13 +141,16 @@ Slicer::Contours Slicer::trace(int layer) const {
         const std::uint32_t t = layer_triangles_[k];
         bool above[3];
         for (int c = 0; c < 3; ++c)
-            above[c] = planes_below_[static_cast<std::size_t>(mesh_.triangles(c, static_cast<Eigen::Index>(t)))] > layer;
-        int rising = -1, falling = -1;  // the sides on which the triangle's boundary rises above and falls below the plane
+            above[c] =
+                planes_below_[static_cast<std::size_t>(mesh_.triangles(c, static_cast<Eigen::Index>(t)))] > layer;
+        int rising = -1,
+            falling = -1;  // the sides on which the triangle's boundary rises above and falls below the plane
         for (int c = 0; c < 3; ++c) {
             if (!above[c] && above[(c + 1) % 3]) rising = c;
             if (above[c] && !above[(c + 1) % 3]) falling = c;
         }
-        Link link{edge_of_[3 * t + static_cast<std::uint32_t>(falling)], edge_of_[3 * t + static_cast<std::uint32_t>(rising)]};
+        Link link{edge_of_[3 * t + static_cast<std::uint32_t>(falling)],
+                  edge_of_[3 * t + static_cast<std::uint32_t>(rising)]};
         if (mirrored) std::swap(link.from, link.to);
         links.push_back(link);
     }
@@ -144,7 +160,8 @@ Slicer::Contours Slicer::trace(int layer) const {
     const auto follow = [&](std::int32_t edge) -> std::size_t {  // the first unused link that starts on the edge
         auto it = std::lower_bound(links.begin(), links.end(), Link{edge, std::numeric_limits<std::int32_t>::min()});
         for (; it != links.end() && it->from == edge; ++it)
-            if (!used[static_cast<std::size_t>(it - links.begin())]) return static_cast<std::size_t>(it - links.begin());
+            if (!used[static_cast<std::size_t>(it - links.begin())])
+                return static_cast<std::size_t>(it - links.begin());
         return links.size();
     };
     Contours contours;
@@ -168,7 +185,8 @@ Slicer::Contours Slicer::trace(int layer) const {
         std::size_t same = k;
         while (same < links.size() && links[same].from == links[k].from) ++same;
         const auto arriving = std::equal_range(reached.begin(), reached.end(), links[k].from);
-        for (std::ptrdiff_t surplus = static_cast<std::ptrdiff_t>(same - k) - (arriving.second - arriving.first); surplus > 0; --surplus) {
+        for (std::ptrdiff_t surplus = static_cast<std::ptrdiff_t>(same - k) - (arriving.second - arriving.first);
+             surplus > 0; --surplus) {
             const std::size_t link = follow(links[k].from);
             if (link < links.size()) walk(link);
         }
@@ -189,15 +207,18 @@ void drop_repeated(ExactContour& contour, bool closed) {
 Contour rounded(const ExactPolygon& polygon) {
     Contour contour;
     for (auto v = polygon.vertices_begin(); v != polygon.vertices_end(); ++v) {
-        const Point p{round_to_lattice(approximate(v->x()) * units_per_mm), round_to_lattice(approximate(v->y()) * units_per_mm)};
+        const Point p{round_to_lattice(approximate(v->x()) * units_per_mm),
+                      round_to_lattice(approximate(v->y()) * units_per_mm)};
         if (contour.empty() || contour.back() != p) contour.push_back(p);
     }
     while (contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();
     return contour;
 }
 
-ClosedGaps close_contours(const std::vector<std::vector<std::int32_t>>& closed, const std::vector<std::vector<std::int32_t>>& open,
-                          const std::vector<std::array<std::int32_t, 2>>& edge_ends, const EdgeCrossings& crossings, int layer, Unit max_gap) {
+ClosedGaps close_contours(const std::vector<std::vector<std::int32_t>>& closed,
+                          const std::vector<std::vector<std::int32_t>>& open,
+                          const std::vector<std::array<std::int32_t, 2>>& edge_ends, const EdgeCrossings& crossings,
+                          int layer, Unit max_gap) {
     const auto points = [&](const std::vector<std::int32_t>& edges, bool is_closed) {
         ExactContour contour;
         contour.reserve(edges.size());

@@ -19,9 +19,9 @@ struct GapClosing {
 
 /// Slices a mesh at the middle planes of its layers: z_0 = h_0 / 2, z_i = h_0 + (i - 1/2) h (MODEL: O_i).
 ///
-/// Exact: coordinates are the mesh's doubles under an exact rational placement, slice vertices the rational points where
-/// mesh edges cross the plane. A vertex on the plane counts as above it, so a plane through vertices, edges or faces gives
-/// the limit of the slices just below; no plane is moved. Solid is where the winding number is not zero.
+/// Exact: coordinates are the mesh's doubles under an exact rational placement, slice vertices the rational points
+/// where mesh edges cross the plane. A vertex on the plane counts as above it, so a plane through vertices, edges or
+/// faces gives the limit of the slices just below; no plane is moved. Solid is where the winding number is not zero.
 class Slicer {
 public:
     /// Keeps a reference to the mesh. Time and memory linear in triangles and in how often planes cross them.

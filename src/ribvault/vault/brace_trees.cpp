@@ -13,7 +13,10 @@ namespace {
 class Bracer {
 public:
     Bracer(SupportForest& forest, const CavityBoundary& boundary, Unit longest)
-        : forest_(forest), boundary_(boundary), longest_(static_cast<double>(longest)), grid_(boundary.location.box(), units_per_mm, 0) {
+        : forest_(forest),
+          boundary_(boundary),
+          longest_(static_cast<double>(longest)),
+          grid_(boundary.location.box(), units_per_mm, 0) {
         for (auto [e, end] = edges(forest); e != end; ++e) enter(source(*e, forest), target(*e, forest));
     }
 
@@ -23,7 +26,8 @@ public:
         for (std::size_t v = 0; v < before; ++v) {
             if (!forest_[v].root || out_degree(v, forest_) == 0) continue;
             const TreeWalk tree = walk_from(v, forest_);
-            const bool alone = std::none_of(tree.order.begin() + 1, tree.order.end(), [&](std::size_t w) { return forest_[w].root; });
+            const bool alone =
+                std::none_of(tree.order.begin() + 1, tree.order.end(), [&](std::size_t w) { return forest_[w].root; });
             if (alone && tree.distance[tree.farthest()] > longest_) braces += brace(tree);
         }
         return braces;
@@ -69,11 +73,13 @@ private:
         std::vector<std::pair<double, Point>> feet;
         boundary_.edges.visit({{at.x - by, at.y - by}, {at.x + by, at.y + by}}, [&](std::uint32_t k) {
             const Point foot = nearest_point(at, boundary_.edges.segments()[k]);
-            if (const double l = length(foot - at); l < limit && length(foot - first) >= longest_ / 2) feet.push_back({l, foot});
+            if (const double l = length(foot - at); l < limit && length(foot - first) >= longest_ / 2)
+                feet.push_back({l, foot});
         });
         std::sort(feet.begin(), feet.end());
         for (const auto& [l, foot] : feet)
-            if (const Point root = place_root(foot, boundary_); root != at && is_free(v, {at, root})) return Brace{v, root};
+            if (const Point root = place_root(foot, boundary_); root != at && is_free(v, {at, root}))
+                return Brace{v, root};
         return std::nullopt;
     }
 

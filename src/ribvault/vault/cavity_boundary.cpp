@@ -16,7 +16,8 @@ std::vector<Segment> edges_off_frame(const Region& region) {
     std::vector<Segment> edges = edges_of(region);
     const Box frame = bounding_box(region);
     std::erase_if(edges, [&](const Segment& e) {
-        return (e.a.x == e.b.x && (e.a.x == frame.lo.x || e.a.x == frame.hi.x)) || (e.a.y == e.b.y && (e.a.y == frame.lo.y || e.a.y == frame.hi.y));
+        return (e.a.x == e.b.x && (e.a.x == frame.lo.x || e.a.x == frame.hi.x)) ||
+               (e.a.y == e.b.y && (e.a.y == frame.lo.y || e.a.y == frame.hi.y));
     });
     return edges;
 }
@@ -24,7 +25,8 @@ std::vector<Segment> edges_off_frame(const Region& region) {
 CavityBoundary prepare_boundary(const Cavity& cavity) {
     if (!cavity.outside) return prepare_boundary(cavity.region);
     const Region& region = cavity.walls ? *cavity.walls : cavity.region;
-    return {NearestSegment(edges_off_frame(region)), PointLocation(edges_of(region), units_per_mm / 2), true, !cavity.walls, cavity.layer};
+    return {NearestSegment(edges_off_frame(region)), PointLocation(edges_of(region), units_per_mm / 2), true,
+            !cavity.walls, cavity.layer};
 }
 
 Point place_root(Point p, const CavityBoundary& boundary) {

@@ -1,4 +1,5 @@
-// The boundary of C_i, or of what lies outside O_i, prepared for the sweep: nearest edge, point location, and where a track may be rooted.
+// The boundary of C_i, or of what lies outside O_i, prepared for the sweep: nearest edge, point location, and where a
+// track may be rooted.
 #pragma once
 
 #include "ribvault/exact/nearest_segment.hpp"

@@ -5,7 +5,8 @@
 namespace ribvault {
 namespace {
 
-/// A place on a segment where it meets the boundary: numerator / denominator of the way from its first to its last point.
+/// A place on a segment where it meets the boundary: numerator / denominator of the way from its first to its last
+/// point.
 struct Meeting {
     std::int64_t numerator, denominator;  ///< 0 <= numerator <= denominator
     bool operator<(const Meeting& o) const {
@@ -41,13 +42,18 @@ void find_meetings(const Segment& s, const CavityBoundary& boundary, std::vector
 class Copier {
 public:
     Copier(const SupportForest& above, const CavityBoundary& boundary, bool shell_holds_tracks)
-        : above_(above), boundary_(boundary), shell_holds_tracks_(shell_holds_tracks), vertex_(num_vertices(above), -1), inside_(num_vertices(above)) {}
+        : above_(above),
+          boundary_(boundary),
+          shell_holds_tracks_(shell_holds_tracks),
+          vertex_(num_vertices(above), -1),
+          inside_(num_vertices(above)) {}
 
     CopiedSupports run() {
         for (std::size_t v = 0; v < inside_.size(); ++v)
             inside_[v] = boundary_.location.locate(above_[v].at) == Side::inside;
         std::int32_t index = 0;
-        for (auto [e, end] = edges(above_); e != end; ++e, ++index) copy_edge(source(*e, above_), target(*e, above_), index);
+        for (auto [e, end] = edges(above_); e != end; ++e, ++index)
+            copy_edge(source(*e, above_), target(*e, above_), index);
         for (std::size_t v = 0; v < inside_.size(); ++v) {
             const bool dot = out_degree(v, above_) == 0;
             if (dot && (inside_[v] || !shell_holds_tracks_)) inherit({above_[v].at, above_[v].at}, v);
@@ -65,7 +71,8 @@ private:
     std::size_t vertex(std::size_t v) {
         if (vertex_[v] < 0) {
             const SupportVertex& was = above_[v];
-            vertex_[v] = static_cast<std::int64_t>(add_vertex({.at = was.at, .wide = was.wide, .standing = was.standing}, result_.forest));
+            vertex_[v] = static_cast<std::int64_t>(
+                add_vertex({.at = was.at, .wide = was.wide, .standing = was.standing}, result_.forest));
         }
         return static_cast<std::size_t>(vertex_[v]);
     }
@@ -97,14 +104,16 @@ private:
             if (shell_holds_tracks_) inherit(s, a);
             return;
         }
-        // Between two meetings the wall is on one side; which, is read off at the rounded middle: what to keep of a wall
-        // that runs along the shell within a rounding is a choice.
+        // Between two meetings the wall is on one side; which, is read off at the rounded middle: what to keep of a
+        // wall that runs along the shell within a rounding is a choice.
         for (std::size_t k = 0; k <= meetings_.size(); ++k) {
-            const Point from = k == 0 ? s.a : meetings_[k - 1].on(s), to = k == meetings_.size() ? s.b : meetings_[k].on(s);
+            const Point from = k == 0 ? s.a : meetings_[k - 1].on(s),
+                        to = k == meetings_.size() ? s.b : meetings_[k].on(s);
             const Point middle{(from.x + to.x) / 2, (from.y + to.y) / 2};
             if (squared_length(to - from) <= root_tolerance * root_tolerance ||
                 boundary_.location.locate(middle) != Side::inside) {
-                // Held against what is below like any other piece, for all its last nanometres may reach into the cavity.
+                // Held against what is below like any other piece, for all its last nanometres may reach into the
+                // cavity.
                 if (shell_holds_tracks_ && at_boundary(middle)) inherit({from, to}, a);
                 if (k == 0 && inside_[a]) anchor(a);
                 if (k == meetings_.size() && inside_[b]) anchor(b);
@@ -114,7 +123,8 @@ private:
                 return root(vertex_between(above_[a], above_[b], p), at_end ? v : no_vertex);
             };
             const std::size_t va = k == 0 && inside_[a] ? vertex(a) : new_root(from, k <= 1, a);
-            const std::size_t vb = k == meetings_.size() && inside_[b] ? vertex(b) : new_root(to, k + 1 >= meetings_.size(), b);
+            const std::size_t vb =
+                k == meetings_.size() && inside_[b] ? vertex(b) : new_root(to, k + 1 >= meetings_.size(), b);
             add(va, vb, index);
             if (shell_holds_tracks_) inherit({from, to}, a);
         }
@@ -129,7 +139,9 @@ private:
         return add_vertex(vertex, result_.forest);
     }
 
-    bool at_boundary(Point p) const { return boundary_.edges.nearest(p).distance.value() <= root_tolerance * root_tolerance; }
+    bool at_boundary(Point p) const {
+        return boundary_.edges.nearest(p).distance.value() <= root_tolerance * root_tolerance;
+    }
 
     void make_root(std::size_t v, Point at) { result_.forest[v].at = at, result_.forest[v].root = true; }
 
@@ -144,8 +156,8 @@ private:
         make_root(vertex(v), place_root(nearest_point(at, edge), boundary_));
     }
 
-    /// Says no, for now, when v's own tree stands in the way. In the end such a root is given up, for its wall would cross the
-    /// tree, unless the tree has no other root.
+    /// Says no, for now, when v's own tree stands in the way. In the end such a root is given up, for its wall would
+    /// cross the tree, unless the tree has no other root.
     bool prolong(std::size_t v, bool in_the_end) {
         SupportForest& forest = result_.forest;
         const std::size_t own = vertex(v);
@@ -175,7 +187,8 @@ private:
             for (std::size_t w = 0; w < own_tree.size(); ++w)
                 if (own_tree[w] && forest[w].root) return true;
         }
-        if (!join_wall({at, foot}, own, own_tree)) add(add_vertex({.at = foot, .root = true, .wide = forest[own].wide}, forest), own, -1);
+        if (!join_wall({at, foot}, own, own_tree))
+            add(add_vertex({.at = foot, .root = true, .wide = forest[own].wide}, forest), own, -1);
         return true;
     }
 
@@ -206,13 +219,14 @@ private:
     bool barred(const Segment& way, std::size_t from, const std::vector<char>& own_tree) const {
         const SupportForest& forest = result_.forest;
         for (auto [e, end] = edges(forest); e != end; ++e)
-            if (own_tree[source(*e, forest)] && source(*e, forest) != from && target(*e, forest) != from && segments_touch(way, wall(*e)))
+            if (own_tree[source(*e, forest)] && source(*e, forest) != from && target(*e, forest) != from &&
+                segments_touch(way, wall(*e)))
                 return true;
         return false;
     }
 
-    /// When other walls stand in the way to the shell, the tree joins the nearest of them instead, if that is another tree:
-    /// this one then stands on the other's roots. Says no when the way is free, or only its own tree is in it.
+    /// When other walls stand in the way to the shell, the tree joins the nearest of them instead, if that is another
+    /// tree: this one then stands on the other's roots. Says no when the way is free, or only its own tree is in it.
     bool join_wall(const Segment& way, std::size_t from, const std::vector<char>& own_tree) {
         SupportForest& forest = result_.forest;
         std::int64_t nearest = -1, index = 0;

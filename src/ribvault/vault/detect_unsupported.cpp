@@ -15,13 +15,15 @@ Region circumscribed_stadium(const Segment& s, Unit r) {
         Contour disc;
         for (int k = 0; k < corners; ++k) {
             const double angle = 2 * M_PI * (k + 0.5) / corners;
-            disc.push_back({centre.x + round_to_lattice(radius * std::cos(angle)), centre.y + round_to_lattice(radius * std::sin(angle))});
+            disc.push_back({centre.x + round_to_lattice(radius * std::cos(angle)),
+                            centre.y + round_to_lattice(radius * std::sin(angle))});
         }
         around_ends.push_back(std::move(disc));
     }
     const double l = length(s);
     if (l > 0) {
-        const double nx = -static_cast<double>(s.b.y - s.a.y) / l * radius, ny = static_cast<double>(s.b.x - s.a.x) / l * radius;
+        const double nx = -static_cast<double>(s.b.y - s.a.y) / l * radius,
+                     ny = static_cast<double>(s.b.x - s.a.x) / l * radius;
         const Point n{round_to_lattice(nx), round_to_lattice(ny)};
         around_ends.push_back({s.a - n, s.b - n, s.b + n, s.a + n});
     }
@@ -55,7 +57,8 @@ Region unsupported_walls(const std::vector<Segment>& inherited, const SupportFor
                    compare_distance(piece.b, walls[k], settings.support_radius) <= 0;
         });
         if (held) continue;
-        for (Contour& contour : circumscribed_stadium(piece, settings.nozzle / 2)) stadiums.push_back(std::move(contour));
+        for (Contour& contour : circumscribed_stadium(piece, settings.nozzle / 2))
+            stadiums.push_back(std::move(contour));
     }
     if (stadiums.empty()) return {};
     return within ? clip(ClipperLib::ctIntersection, *within, stadiums) : stadiums;

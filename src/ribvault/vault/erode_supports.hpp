@@ -10,7 +10,7 @@ namespace ribvault {
 struct ErodedSupports {
     SupportForest forest;
     std::vector<char> survives;  ///< per edge of the input, in its order: something of it is left
-    std::vector<char> pinned;    ///< per vertex of forest: a branch vanished here, so straightening must not move it yet
+    std::vector<char> pinned;  ///< per vertex of forest: a branch vanished here, so straightening must not move it yet
 };
 
 /// Shortens every free tip (valence 1, not a root) by `step` along its path, through vertices of valence 2; a branch

@@ -57,7 +57,8 @@ double track_down(Vertex root, const SupportForest& forest, int layers, Unit ste
 
 SpareLengths spare_lengths(const SupportForest& forest, Unit pillar_length) {
     SpareLengths lengths{std::vector<std::size_t>(num_vertices(forest)), {}};
-    lengths.spare.resize(boost::connected_components(forest, lengths.tree.data()), std::numeric_limits<double>::infinity());
+    lengths.spare.resize(boost::connected_components(forest, lengths.tree.data()),
+                         std::numeric_limits<double>::infinity());
     for (auto [v, end] = vertices(forest); v != end; ++v)
         if (forest[*v].free) lengths.of(*v) = -static_cast<double>(pillar_length);
     for (auto [e, end] = edges(forest); e != end; ++e)
@@ -109,7 +110,8 @@ void centre_free_trees(SupportForest& forest) {
         if (middle.along > 0) {
             const Point a = forest[middle.vertex].at, d = forest[middle.next].at - a;
             const double t = middle.along / length(d);
-            const Point at{a.x + round_to_lattice(t * static_cast<double>(d.x)), a.y + round_to_lattice(t * static_cast<double>(d.y))};
+            const Point at{a.x + round_to_lattice(t * static_cast<double>(d.x)),
+                           a.y + round_to_lattice(t * static_cast<double>(d.y))};
             if (at == forest[middle.next].at) centre = middle.next;
             else if (at != a) {
                 centre = add_vertex(SupportVertex{at}, forest);

@@ -15,17 +15,18 @@ struct SpareLengths {
 };
 SpareLengths spare_lengths(const SupportForest& forest, Unit pillar_length);
 
-/// Leaves every tree one root: the first on the shell, if it has one, else the first free one, else a free one at the vertex
-/// nearest to the middle of the tree. Its other roots become what they are without it, so that erosion may take them.
+/// Leaves every tree one root: the first on the shell, if it has one, else the first free one, else a free one at the
+/// vertex nearest to the middle of the tree. Its other roots become what they are without it, so that erosion may take
+/// them.
 void root_trees(SupportForest& forest);
 
-/// Has trees that are rooted on the shell stand free, on the vertex nearest to their middle, where that takes less track on all
-/// `layers` down to the bed: each wall lasts until the tips behind it have run back to it, one `step` a layer, and `pillar_length` stays to
-/// the end. Precondition: every tree has one root.
+/// Has trees that are rooted on the shell stand free, on the vertex nearest to their middle, where that takes less
+/// track on all `layers` down to the bed: each wall lasts until the tips behind it have run back to it, one `step` a
+/// layer, and `pillar_length` stays to the end. Precondition: every tree has one root.
 void free_where_cheaper(SupportForest& forest, int layers, Unit step, Unit pillar_length);
 
-/// Moves the root of every free tree to the middle of the tree's longest path, where a new vertex is made if need be (rounded to
-/// the lattice): its tips have the shortest way to it.
+/// Moves the root of every free tree to the middle of the tree's longest path, where a new vertex is made if need be
+/// (rounded to the lattice): its tips have the shortest way to it.
 void centre_free_trees(SupportForest& forest);
 
 }  // namespace ribvault

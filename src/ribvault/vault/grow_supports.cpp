@@ -15,7 +15,8 @@ namespace {
 
 /// Deterministic random number of a place: ties of Section 4.3 do not depend on the order of evaluation.
 std::uint64_t tie_of(Point p, std::uint64_t seed) {
-    std::uint64_t z = seed ^ (static_cast<std::uint64_t>(p.x) * 0x9e3779b97f4a7c15ULL) ^ (static_cast<std::uint64_t>(p.y) * 0xc2b2ae3d27d4eb4fULL);
+    std::uint64_t z = seed ^ (static_cast<std::uint64_t>(p.x) * 0x9e3779b97f4a7c15ULL) ^
+                      (static_cast<std::uint64_t>(p.y) * 0xc2b2ae3d27d4eb4fULL);
     for (int round = 0; round < 2; ++round) {  // the finaliser of splitmix64
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
@@ -54,11 +55,17 @@ std::vector<Segment> wide_pieces(const Region& region, Unit nozzle) {
 
 class Grower {
 public:
-    Grower(SupportForest forest, const Region& unsupported, const CavityBoundary& boundary, std::uint64_t seed, const Settings& settings)
-        : settings_(settings), boundary_(boundary), seed_(seed),
-          radius_(static_cast<double>(settings.nozzle / 2 + settings.support_radius)), slack_(static_cast<double>(settings.slack)),
-          unsupported_(unsupported, settings), supports_(std::move(forest), boundary.location.box(), boundary, settings) {
-        if (settings.branch_bonus && settings.narrow_bonus) wide_ = PointLocation(wide_pieces(unsupported, settings.nozzle), units_per_mm);
+    Grower(SupportForest forest, const Region& unsupported, const CavityBoundary& boundary, std::uint64_t seed,
+           const Settings& settings)
+        : settings_(settings),
+          boundary_(boundary),
+          seed_(seed),
+          radius_(static_cast<double>(settings.nozzle / 2 + settings.support_radius)),
+          slack_(static_cast<double>(settings.slack)),
+          unsupported_(unsupported, settings),
+          supports_(std::move(forest), boundary.location.box(), boundary, settings) {
+        if (settings.branch_bonus && settings.narrow_bonus)
+            wide_ = PointLocation(wide_pieces(unsupported, settings.nozzle), units_per_mm);
     }
 
     SupportForest run() {
@@ -83,8 +90,8 @@ private:
 
     static double half_diagonal(const Box& box) { return UnsupportedCells::half_diagonal(box); }
 
-    /// The first pass: the lattice's points, nearest to B_i first. Cells open only when their turn comes, and not at all
-    /// when one wall already covers them. Contact at exactly r + ρ counts here: on a lattice it is the normal case.
+    /// The first pass: the lattice's points, nearest to B_i first. Cells open only when their turn comes, and not at
+    /// all when one wall already covers them. Contact at exactly r + ρ counts here: on a lattice it is the normal case.
     void add_pixels() {
         Queue queue;
         const std::vector<UnsupportedCells::Cell>& cells = unsupported_.cells();
@@ -115,7 +122,9 @@ private:
     Candidate point_candidate(Point p) const { return {in_order(to_shell(p)), tie_of(p, seed_), p, -1}; }
 
     /// Where there is no shell all points are equally near.
-    SquaredDistance to_shell(Point p) const { return boundary_.has_shell() ? boundary_.edges.nearest(p).distance : SquaredDistance{0, 1}; }
+    SquaredDistance to_shell(Point p) const {
+        return boundary_.has_shell() ? boundary_.edges.nearest(p).distance : SquaredDistance{0, 1};
+    }
 
     /// What decides when a point at this distance to B_i is looked at.
     SquaredDistance in_order(const SquaredDistance& distance) const {
@@ -132,8 +141,8 @@ private:
         return open;
     }
 
-    /// The second pass, one round: finds points between the pixels that are not covered, adds their walls, and returns the
-    /// cells that must be looked at again.
+    /// The second pass, one round: finds points between the pixels that are not covered, adds their walls, and returns
+    /// the cells that must be looked at again.
     std::vector<std::size_t> add_between(const std::vector<std::size_t>& open) {
         Queue queue;
         std::vector<std::size_t> again;
@@ -147,7 +156,8 @@ private:
             if (queue.size() != before) again.push_back(k);
         }
         for (; !queue.empty(); queue.pop())
-            if (!supports_.covers(queue.top().at, radius_ - slack_)) supports_.add_wall(queue.top().at, bonus(queue.top().at));
+            if (!supports_.covers(queue.top().at, radius_ - slack_))
+                supports_.add_wall(queue.top().at, bonus(queue.top().at));
         return again;
     }
 

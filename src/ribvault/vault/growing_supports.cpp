@@ -4,8 +4,11 @@
 
 namespace ribvault {
 
-GrowingSupports::GrowingSupports(SupportForest forest, const Box& cavity_box, const CavityBoundary& boundary, const Settings& settings)
-    : forest_(std::move(forest)), boundary_(boundary), settings_(settings),
+GrowingSupports::GrowingSupports(SupportForest forest, const Box& cavity_box, const CavityBoundary& boundary,
+                                 const Settings& settings)
+    : forest_(std::move(forest)),
+      boundary_(boundary),
+      settings_(settings),
       grid_(cavity_box, settings.nozzle, settings.nozzle / 2 + settings.support_radius) {
     inherited_vertices_ = num_vertices(forest_);
     for (auto [e, end] = edges(forest_); e != end; ++e) enter(source(*e, forest_), target(*e, forest_));
@@ -110,12 +113,14 @@ SquaredDistance squared(double distance) {
 double GrowingSupports::longest_wall() const {
     if (!boundary_.free_trees) return std::numeric_limits<double>::infinity();
     // A wall of length L loses one step a layer: L² / (2 step) in all, less what the bed cuts off.
-    const auto layers = static_cast<double>(boundary_.layers_below), step = static_cast<double>(std::max<Unit>(settings_.erosion_step, 1));
+    const auto layers = static_cast<double>(boundary_.layers_below),
+               step = static_cast<double>(std::max<Unit>(settings_.erosion_step, 1));
     const double pillar = static_cast<double>(settings_.pillar_length);
     return 2 * pillar < layers * step ? std::sqrt(2 * step * pillar * layers) : pillar + layers * step / 2;
 }
 
-std::optional<std::uint32_t> GrowingSupports::nearest_wall(Point p, const SquaredDistance& limit, SquaredDistance& distance) const {
+std::optional<std::uint32_t> GrowingSupports::nearest_wall(Point p, const SquaredDistance& limit,
+                                                           SquaredDistance& distance) const {
     std::optional<std::uint32_t> wall;
     const double farthest = std::sqrt(limit.value());
     // Searched in growing squares.
@@ -149,7 +154,8 @@ void GrowingSupports::add_pillar(Point p) {
     const Unit arm = settings_.pillar_length / 4;
     for (const Point d : {Point{arm, 0}, Point{0, arm}, Point{-arm, 0}, Point{0, -arm}}) {
         const Point end = p + d;
-        if (boundary_.location.locate(end) == Side::inside && free_way(end, centre)) connect(add_vertex(SupportVertex{end}, forest_), centre);
+        if (boundary_.location.locate(end) == Side::inside && free_way(end, centre))
+            connect(add_vertex(SupportVertex{end}, forest_), centre);
     }
 }
 
@@ -164,7 +170,8 @@ void GrowingSupports::add_wall(Point at, Unit bonus) {
     NearestSegment::Hit shell{0, squared(std::min(longest, static_cast<double>(lattice_bound)))};
     bool to_shell = false;
     if (boundary_.has_shell())
-        if (const NearestSegment::Hit hit = boundary_.edges.nearest(p); hit.distance.value() <= longest * longest) shell = hit, to_shell = true;
+        if (const NearestSegment::Hit hit = boundary_.edges.nearest(p); hit.distance.value() <= longest * longest)
+            shell = hit, to_shell = true;
     SquaredDistance wall_distance{0, 1};
     const std::optional<std::uint32_t> wall = nearest_wall(p, shell.distance, wall_distance);
     const SquaredDistance plain_distance = wall ? wall_distance : shell.distance;
@@ -176,7 +183,9 @@ void GrowingSupports::add_wall(Point at, Unit bonus) {
         grid_.visit(around(p, plain + static_cast<double>(bonus)), [&](std::uint32_t w) {
             if (!walls_[w].alive) return;
             for (const std::size_t v : {walls_[w].a, walls_[w].b}) {
-                if (out_degree(v, forest_) == 0 || out_degree(v, forest_) >= static_cast<std::size_t>(settings_.valence_limit)) continue;
+                if (out_degree(v, forest_) == 0 ||
+                    out_degree(v, forest_) >= static_cast<std::size_t>(settings_.valence_limit))
+                    continue;
                 const SquaredDistance d{squared_length(forest_[v].at - p), 1};
                 if (compare_biased(d, bonus, plain_distance, 0) < 0) junctions.push_back({d, v});
             }
@@ -185,7 +194,8 @@ void GrowingSupports::add_wall(Point at, Unit bonus) {
         const int order = compare(a.first, b.first);
         return order != 0 ? order < 0 : a.second < b.second;
     });
-    junctions.erase(std::unique(junctions.begin(), junctions.end(), [](const auto& a, const auto& b) { return a.second == b.second; }),
+    junctions.erase(std::unique(junctions.begin(), junctions.end(),
+                                [](const auto& a, const auto& b) { return a.second == b.second; }),
                     junctions.end());
     for (const auto& [distance, v] : junctions)
         if (free_way(p, v)) {
@@ -216,8 +226,10 @@ SupportForest GrowingSupports::take() {
     SupportForest kept;
     std::vector<std::size_t> place(num_vertices(forest_));
     for (std::size_t v = 0; v < place.size(); ++v)
-        if (out_degree(v, forest_) > 0 || v < inherited_vertices_ || forest_[v].free) place[v] = add_vertex(forest_[v], kept);
-    for (auto [e, end] = edges(forest_); e != end; ++e) add_edge(place[source(*e, forest_)], place[target(*e, forest_)], kept);
+        if (out_degree(v, forest_) > 0 || v < inherited_vertices_ || forest_[v].free)
+            place[v] = add_vertex(forest_[v], kept);
+    for (auto [e, end] = edges(forest_); e != end; ++e)
+        add_edge(place[source(*e, forest_)], place[target(*e, forest_)], kept);
     return kept;
 }
 

@@ -13,7 +13,8 @@ namespace ribvault {
 
 class GrowingSupports {
 public:
-    GrowingSupports(SupportForest forest, const Box& cavity_box, const CavityBoundary& boundary, const Settings& settings);
+    GrowingSupports(SupportForest forest, const Box& cavity_box, const CavityBoundary& boundary,
+                    const Settings& settings);
 
     /// Is p within `radius` (units, at most r + ρ) of a wall? Nothing is within a negative radius.
     bool covers(Point p, double radius) const;
@@ -21,9 +22,9 @@ public:
     /// Adds the wall that Section 4.3 gives to p: to the nearest point of B_i ∪ S_i under equation (4) with this bonus.
     /// Precondition: p lies strictly inside the cavity. Postcondition: covers(p, 0) up to rounding.
     ///
-    /// Where trees may stand free and a wall would take more track down to the bed than a pillar does, p gets a pillar: a cross of
-    /// settings.pillar_length. Outside p may also lie between the object and the region that a removal gap leaves: the wall goes to
-    /// the point of the region nearest to it.
+    /// Where trees may stand free and a wall would take more track down to the bed than a pillar does, p gets a pillar:
+    /// a cross of settings.pillar_length. Outside p may also lie between the object and the region that a removal gap
+    /// leaves: the wall goes to the point of the region nearest to it.
     void add_wall(Point p, Unit bonus);
 
     /// A wall that add_wall added, from its new vertex to where it joined.
@@ -33,7 +34,9 @@ public:
     };
     const std::vector<NewWall>& new_walls() const { return new_walls_; }
     /// Is the wall there, and nothing joined to its new vertex?
-    bool is_free(const NewWall& wall) const { return walls_[wall.index].alive && out_degree(wall.vertex, forest_) == 1; }
+    bool is_free(const NewWall& wall) const {
+        return walls_[wall.index].alive && out_degree(wall.vertex, forest_) == 1;
+    }
     Segment segment_of(const NewWall& wall) const { return {forest_[wall.joint].at, forest_[wall.vertex].at}; }
     void remove(const NewWall& wall) {
         walls_[wall.index].alive = false;

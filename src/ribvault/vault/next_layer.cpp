@@ -31,14 +31,18 @@ Region within_reach(const Region& region, const Region& walls, const Settings& s
     if (region.empty() || walls.empty()) return {};
     const double slack = static_cast<double>(settings.slack);
     return clip(ClipperLib::ctIntersection, region,
-                offset(walls, static_cast<double>(settings.nozzle / 2 + settings.support_radius) - 3 * slack, ClipperLib::jtRound, slack));
+                offset(walls, static_cast<double>(settings.nozzle / 2 + settings.support_radius) - 3 * slack,
+                       ClipperLib::jtRound, slack));
 }
 
-/// What of the layer above neither the supports nor the shell hold up; where the object holds up none, what the supports do not of those outside.
-Region unsupported_pieces(const CopiedSupports& copied, const SupportForest& propagated, const Cavity& cavity, const Settings& settings) {
+/// What of the layer above neither the supports nor the shell hold up; where the object holds up none, what the
+/// supports do not of those outside.
+Region unsupported_pieces(const CopiedSupports& copied, const SupportForest& propagated, const Cavity& cavity,
+                          const Settings& settings) {
     if (!cavity.on_bed) return unsupported_walls(copied.inherited, propagated, &cavity.deep, settings);
     std::vector<Segment> inside, outside;
-    for (std::size_t k = 0; k < copied.inherited.size(); ++k) (copied.inherited_outside[k] ? outside : inside).push_back(copied.inherited[k]);
+    for (std::size_t k = 0; k < copied.inherited.size(); ++k)
+        (copied.inherited_outside[k] ? outside : inside).push_back(copied.inherited[k]);
     Region unsupported = unsupported_walls(inside, propagated, &cavity.deep, settings);
     const Region more = unsupported_walls(outside, propagated, nullptr, settings);
     unsupported.insert(unsupported.end(), more.begin(), more.end());
@@ -58,7 +62,8 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         const bool shell_holds_tracks = boundary.rooted && settings.support_radius >= settings.nozzle / 2;
         CopiedSupports copied = copy_supports(above, boundary, shell_holds_tracks);
         if (boundary.free_trees) root_trees(copied.forest);
-        if (settings.pillars) free_where_cheaper(copied.forest, boundary.layers_below, settings.erosion_step, settings.pillar_length);
+        if (settings.pillars)
+            free_where_cheaper(copied.forest, boundary.layers_below, settings.erosion_step, settings.pillar_length);
         for (auto [v, end] = vertices(copied.forest); v != end; ++v) ++copied.forest[*v].standing;
         SupportForest propagated;
         const auto note_continued = [&](const std::vector<char>& survives) {
@@ -67,7 +72,8 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         };
         ErodedSupports eroded;
         if (settings.propagation == Propagation::shrink) {
-            ShrunkSupports shrunk = shrink_supports(copied.forest, boundary, settings.erosion_step, settings.pillar_length, cavity.outside ? 0 : settings.brace);
+            ShrunkSupports shrunk = shrink_supports(copied.forest, boundary, settings.erosion_step,
+                                                    settings.pillar_length, cavity.outside ? 0 : settings.brace);
             note_continued(shrunk.survives);
             propagated = shrunk.left_cavity ? clip_again(shrunk.forest, boundary) : std::move(shrunk.forest);
         } else {
@@ -76,15 +82,18 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
             propagated = std::move(eroded.forest);
         }
         if (settings.propagation == Propagation::erode_straighten && settings.straighten) {
-            StraightenedSupports straightened = straighten_supports(propagated, eroded.pinned, boundary, settings.straighten_step);
+            StraightenedSupports straightened =
+                straighten_supports(propagated, eroded.pinned, boundary, settings.straighten_step);
             result.blocked = straightened.blocked;
-            propagated = straightened.left_cavity ? clip_again(straightened.forest, boundary) : std::move(straightened.forest);
+            propagated =
+                straightened.left_cavity ? clip_again(straightened.forest, boundary) : std::move(straightened.forest);
         }
         if (boundary.free_trees) centre_free_trees(propagated);
         result.unsupported = unsupported_pieces(copied, propagated, cavity, settings);
         result.unsupported.insert(result.unsupported.end(), overhang.begin(), overhang.end());
         if (cavity.walls) result.unsupported = within_reach(result.unsupported, *cavity.walls, settings);
-        const std::uint64_t layer_seed = settings.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(cavity.layer);
+        const std::uint64_t layer_seed =
+            settings.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(cavity.layer);
         result.forest = grow_supports(std::move(propagated), result.unsupported, boundary, layer_seed, settings);
         if (!cavity.outside) {
             result.braces = brace_trees(result.forest, boundary, settings.brace);
@@ -92,7 +101,8 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         }
     }
     if (cavity.outside)  // where walls have one line, also those that came out of a cavity
-        for (auto [v, end] = vertices(result.forest); v != end; ++v) result.forest[*v].outside = true, result.forest[*v].wide = false;
+        for (auto [v, end] = vertices(result.forest); v != end; ++v)
+            result.forest[*v].outside = true, result.forest[*v].wide = false;
     std::size_t index = 0;
     for (auto [e, end] = edges(above); e != end; ++e, ++index) above[*e].first_layer = !continues[index];
     return result;

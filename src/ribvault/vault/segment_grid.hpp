@@ -9,7 +9,8 @@
 
 namespace ribvault {
 
-/// Each segment is entered in every cell that lies within `reach` of it (a cell may be entered needlessly, never missed).
+/// Each segment is entered in every cell that lies within `reach` of it (a cell may be entered needlessly, never
+/// missed).
 class SegmentGrid {
 public:
     SegmentGrid(const Box& box, Unit cell, Unit reach)
@@ -17,8 +18,10 @@ public:
           heads_(static_cast<std::size_t>(nx_ * ny_), -1) {}
 
     void insert(std::uint32_t id, const Segment& s) {
-        const Unit x0 = column(std::min(s.a.x, s.b.x) - reach_, lo_.x, nx_), x1 = column(std::max(s.a.x, s.b.x) + reach_, lo_.x, nx_);
-        const Unit y0 = column(std::min(s.a.y, s.b.y) - reach_, lo_.y, ny_), y1 = column(std::max(s.a.y, s.b.y) + reach_, lo_.y, ny_);
+        const Unit x0 = column(std::min(s.a.x, s.b.x) - reach_, lo_.x, nx_),
+                   x1 = column(std::max(s.a.x, s.b.x) + reach_, lo_.x, nx_);
+        const Unit y0 = column(std::min(s.a.y, s.b.y) - reach_, lo_.y, ny_),
+                   y1 = column(std::max(s.a.y, s.b.y) + reach_, lo_.y, ny_);
         const double dx = static_cast<double>(s.b.x - s.a.x), dy = static_cast<double>(s.b.y - s.a.y);
         const double l = std::hypot(dx, dy);
         // A cell farther from the segment's line than reach and half its diagonal cannot hold a point within reach.

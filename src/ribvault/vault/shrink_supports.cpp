@@ -17,12 +17,17 @@ constexpr int sweeps = 10;
 class Shrinker {
 public:
     Shrinker(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length, Unit braced)
-        : boundary_(boundary), step_(step), braced_(static_cast<double>(braced)), grid_(bounds(forest), units_per_mm, step + 2) {
-        for (auto [v, end] = vertices(forest); v != end; ++v) nodes_.push_back({forest[*v].at, forest[*v].root, {forest[*v].at}, {}, forest[*v]});
+        : boundary_(boundary),
+          step_(step),
+          braced_(static_cast<double>(braced)),
+          grid_(bounds(forest), units_per_mm, step + 2) {
+        for (auto [v, end] = vertices(forest); v != end; ++v)
+            nodes_.push_back({forest[*v].at, forest[*v].root, {forest[*v].at}, {}, forest[*v]});
         for (auto [e, end] = edges(forest); e != end; ++e) add_wall(source(*e, forest), target(*e, forest));
         input_walls_ = walls_.size();
         SpareLengths lengths = spare_lengths(forest, pillar_length);
-        for (std::size_t v = 0; v < nodes_.size(); ++v) nodes_[v].free = forest[v].free, nodes_[v].stays = lengths.of(v) <= 0;
+        for (std::size_t v = 0; v < nodes_.size(); ++v)
+            nodes_[v].free = forest[v].free, nodes_[v].stays = lengths.of(v) <= 0;
     }
 
     ShrunkSupports run() {
@@ -71,7 +76,8 @@ private:
     }
 
     bool reachable(const Node& node, Point p) const {
-        return std::all_of(node.from.begin(), node.from.end(), [&](Point f) { return squared_length(p - f) <= step_ * step_; });
+        return std::all_of(node.from.begin(), node.from.end(),
+                           [&](Point f) { return squared_length(p - f) <= step_ * step_; });
     }
 
     /// Would v's walls collide with others if v were at p? `merged`: a neighbour that takes v in, or none.
@@ -92,7 +98,8 @@ private:
                     const std::size_t x = o.a == v ? o.b : o.a;
                     if (x == merged) return;
                     const Segment t{p, nodes_[x].at};
-                    hit = orientation(p, nodes_[u].at, nodes_[x].at) == 0 && t.a != t.b && ahead(p, nodes_[u].at, nodes_[x].at);
+                    hit = orientation(p, nodes_[u].at, nodes_[x].at) == 0 && t.a != t.b &&
+                          ahead(p, nodes_[u].at, nodes_[x].at);
                     return;
                 }
                 hit = collide(s, segment(o));
@@ -112,7 +119,8 @@ private:
         const Vec here = vec(node.at);
         if (node.walls.size() == 1) return vec(nodes_[other(node.walls[0], v)].at);
         if (node.walls.size() == 2) {
-            const Vec a = vec(nodes_[other(node.walls[0], v)].at), b = vec(nodes_[other(node.walls[1], v)].at), d = b - a;
+            const Vec a = vec(nodes_[other(node.walls[0], v)].at), b = vec(nodes_[other(node.walls[1], v)].at),
+                      d = b - a;
             const double l2 = dot(d, d);
             // At the same share of the way, so that vertices stay spread along the chain.
             const double la = norm(here - a), lb = norm(here - b);
@@ -188,7 +196,8 @@ private:
             for (const std::uint32_t k : nodes_[u].walls) {
                 const std::size_t x = other(w, v), y = other(k, u);
                 if (x == u || y == v) continue;
-                if (orientation(p, nodes_[x].at, nodes_[y].at) == 0 && ahead(p, nodes_[x].at, nodes_[y].at)) return true;
+                if (orientation(p, nodes_[x].at, nodes_[y].at) == 0 && ahead(p, nodes_[x].at, nodes_[y].at))
+                    return true;
             }
         return false;
     }
@@ -201,7 +210,8 @@ private:
             nodes_[u].walls.push_back(w);
         }
         for (const Point f : nodes_[v].from)
-            if (std::find(nodes_[u].from.begin(), nodes_[u].from.end(), f) == nodes_[u].from.end()) nodes_[u].from.push_back(f);
+            if (std::find(nodes_[u].from.begin(), nodes_[u].from.end(), f) == nodes_[u].from.end())
+                nodes_[u].from.push_back(f);
         nodes_[u].was.wide = nodes_[u].was.wide || nodes_[v].was.wide;
         nodes_[v].gone = true;
         nodes_[v].walls.clear();
@@ -221,14 +231,16 @@ private:
             const Point beside = rounded(here + (reach / norm(wish - here)) * (wish - here));
             const Segment& edge = boundary_.edges.segments()[boundary_.edges.nearest(beside).index];
             const Point p = place_root(nearest_point(beside, edge), boundary_);
-            if (p == node.at || !reachable(node, p) || length(neighbour - p) >= before - 1 || collides(v, p, none)) continue;
+            if (p == node.at || !reachable(node, p) || length(neighbour - p) >= before - 1 || collides(v, p, none))
+                continue;
             nodes_[v].at = p;
             return true;
         }
         return false;
     }
 
-    /// Trees with several roots fall apart in the middle of the way between two of them, once no part is longer than a braced tree.
+    /// Trees with several roots fall apart in the middle of the way between two of them, once no part is longer than a
+    /// braced tree.
     void cut_between_roots() {
         const std::size_t n = nodes_.size();
         std::vector<std::int64_t> owner(n, -1);
@@ -238,7 +250,8 @@ private:
         std::vector<std::pair<double, std::size_t>> heap;
         const auto later = [](const auto& a, const auto& b) { return a > b; };
         for (std::size_t v = 0; v < n; ++v)
-            if (nodes_[v].root && !nodes_[v].walls.empty()) owner[v] = static_cast<std::int64_t>(v), heap.push_back({0, v});
+            if (nodes_[v].root && !nodes_[v].walls.empty())
+                owner[v] = static_cast<std::int64_t>(v), heap.push_back({0, v});
         std::vector<char> done(n, 0);
         std::make_heap(heap.begin(), heap.end(), later);
         while (!heap.empty()) {
@@ -278,8 +291,8 @@ private:
         }
     }
 
-    /// The narrowest corner of a junction with four walls or more, or of a root with two or more, below 120°: its two walls
-    /// get a common beginning that grows from layer to layer.
+    /// The narrowest corner of a junction with four walls or more, or of a root with two or more, below 120°: its two
+    /// walls get a common beginning that grows from layer to layer.
     void zip_corners() {
         const std::size_t n = nodes_.size();
         for (std::size_t v = 0; v < n; ++v) {
@@ -306,7 +319,8 @@ private:
             if (reach < 4 || norm(bisector) < 1e-9) continue;
             const Point p = rounded(here + (reach / norm(bisector)) * bisector);
             if (p == nodes_[v].at || p == nodes_[a].at || p == nodes_[b].at) continue;
-            const double saved = norm(da) + norm(db) - norm(vec(nodes_[a].at) - vec(p)) - norm(vec(nodes_[b].at) - vec(p)) - reach;
+            const double saved =
+                norm(da) + norm(db) - norm(vec(nodes_[a].at) - vec(p)) - norm(vec(nodes_[b].at) - vec(p)) - reach;
             if (saved <= 1) continue;
             // The corner is empty between the two walls, but another wall may reach into it.
             bool free = true;
@@ -343,7 +357,8 @@ private:
             if (w.alive) {
                 const std::size_t a = keep(w.a), b = keep(w.b);
                 add_edge(a, b, result.forest);
-                result.left_cavity = result.left_cavity || meets_shell(segment(w), nodes_[w.a].root, nodes_[w.b].root, boundary_);
+                result.left_cavity =
+                    result.left_cavity || meets_shell(segment(w), nodes_[w.a].root, nodes_[w.b].root, boundary_);
             }
         for (std::size_t v = 0; v < nodes_.size(); ++v)
             if (!nodes_[v].gone && nodes_[v].root && nodes_[v].walls.empty()) keep(v);
@@ -366,7 +381,8 @@ private:
 
 }  // namespace
 
-ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length, Unit braced) {
+ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step,
+                               Unit pillar_length, Unit braced) {
     return Shrinker(forest, boundary, step, pillar_length, braced).run();
 }
 

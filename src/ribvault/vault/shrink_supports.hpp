@@ -1,4 +1,5 @@
-// Thrifty strategy: erosion and straightening as one descent of the supports' length (in place of Section 4.1, Reduction).
+// Thrifty strategy: erosion and straightening as one descent of the supports' length (in place of Section 4.1,
+// Reduction).
 #pragma once
 
 #include <vector>
@@ -14,17 +15,19 @@ struct ShrunkSupports {
     bool left_cavity = false;    ///< some wall meets the boundary of C_i and must be clipped again
 };
 
-/// Shortens the supports as far as points that move by at most `step` can: tips run back, junctions move too, roots slide
-/// along the shell, vertices that meet merge, the narrowest corner of a crowded junction or root is zipped up, and a tree
-/// with several roots is cut apart between them.
+/// Shortens the supports as far as points that move by at most `step` can: tips run back, junctions move too, roots
+/// slide along the shell, vertices that meet merge, the narrowest corner of a crowded junction or root is zipped up,
+/// and a tree with several roots is cut apart between them.
 ///
-/// Every point of a wall stays within `step` of what has become of the wall (a segment whose ends moved by at most `step`,
-/// decided exactly, or a point within `step` of both its ends), so equation (1) holds as for the paper's two operators. No two
-/// walls cross that did not before.
+/// Every point of a wall stays within `step` of what has become of the wall (a segment whose ends moved by at most
+/// `step`, decided exactly, or a point within `step` of both its ends), so equation (1) holds as for the paper's two
+/// operators. No two walls cross that did not before.
 ///
 /// `braced` > 0 (vault/brace_trees.hpp): a tree is cut between its roots only where no part would be longer.
 ///
-/// Roots of trees that stand free stay where they are, and of such a tree that has no more than `pillar_length` everything does.
-ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length = 0, Unit braced = 0);
+/// Roots of trees that stand free stay where they are, and of such a tree that has no more than `pillar_length`
+/// everything does.
+ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step,
+                               Unit pillar_length = 0, Unit braced = 0);
 
 }  // namespace ribvault

@@ -24,8 +24,14 @@ Point move_towards(Point from, double x, double y, Unit step) {
 
 class Straightener {
 public:
-    Straightener(const SupportForest& forest, const std::vector<char>& pinned, const CavityBoundary& boundary, Unit step)
-        : forest_(forest), pinned_(pinned), boundary_(boundary), step_(step), place_(num_vertices(forest)), at_(num_vertices(forest)),
+    Straightener(const SupportForest& forest, const std::vector<char>& pinned, const CavityBoundary& boundary,
+                 Unit step)
+        : forest_(forest),
+          pinned_(pinned),
+          boundary_(boundary),
+          step_(step),
+          place_(num_vertices(forest)),
+          at_(num_vertices(forest)),
           grid_(bounds(forest), units_per_mm, 0) {
         for (std::size_t v = 0; v < place_.size(); ++v) place_[v] = forest[v].at;
         for (auto [e, end] = edges(forest); e != end; ++e) add_wall(source(*e, forest), target(*e, forest), false);
@@ -85,9 +91,11 @@ private:
             const double y = static_cast<double>(p0.y) + share * static_cast<double>(pn.y - p0.y);
             const Point from = place_[chain_[k]];
             targets_.push_back(move_towards(from, x, y, step_));
-            // The rounded chord point may be as much as one unit beyond the limit: then the chain arrives a layer later.
+            // The rounded chord point may be as much as one unit beyond the limit: then the chain arrives a layer
+            // later.
             arrives = arrives && compare_distance(from, {p0, pn}, step_) <= 0 &&
-                      std::hypot(x - static_cast<double>(from.x), y - static_cast<double>(from.y)) <= static_cast<double>(step_);
+                      std::hypot(x - static_cast<double>(from.x), y - static_cast<double>(from.y)) <=
+                          static_cast<double>(step_);
         }
         targets_.push_back(pn);
         for (const std::uint32_t w : chain_walls_) walls_[w].alive = false;
@@ -96,7 +104,10 @@ private:
             arrives = !collides(moved_.front());
         }
         if (!arrives) keep_clear();
-        for (const Segment& s : moved_) result_.left_cavity = result_.left_cavity || meets_shell(s, s.a == p0 && forest_[chain_.front()].root, s.b == pn && forest_[chain_.back()].root, boundary_);
+        for (const Segment& s : moved_)
+            result_.left_cavity =
+                result_.left_cavity || meets_shell(s, s.a == p0 && forest_[chain_.front()].root,
+                                                   s.b == pn && forest_[chain_.back()].root, boundary_);
         if (arrives) {
             add_wall(chain_.front(), chain_.back(), true);
             return;
@@ -114,7 +125,8 @@ private:
     }
 
     /// Lets every vertex go to its target but those whose walls would cross another wall: they stay, and so do their
-    /// neighbours along such a wall, until nothing crosses. In the end that is the chain as it was, which crosses nothing.
+    /// neighbours along such a wall, until nothing crosses. In the end that is the chain as it was, which crosses
+    /// nothing.
     void keep_clear() {
         bool counted = false;
         for (bool again = true; again;) {

@@ -12,10 +12,11 @@ struct StraightenedSupports {
     int blocked = 0;           ///< chains some vertices of which stayed, lest they cross another wall
 };
 
-/// Every maximal chain without branches keeps its ends; each vertex between them moves by at most `step` towards the point
-/// at the same fraction of the chain's length on the chord. A chain that arrives becomes one segment. So every point of the
-/// input lies within `step` of the output. Vertices marked in `pinned` (where erosion has just taken a branch, which they
-/// alone hold up) count as ends. The supports stay planar: vertices whose walls would cross another wall stay.
+/// Every maximal chain without branches keeps its ends; each vertex between them moves by at most `step` towards the
+/// point at the same fraction of the chain's length on the chord. A chain that arrives becomes one segment. So every
+/// point of the input lies within `step` of the output. Vertices marked in `pinned` (where erosion has just taken a
+/// branch, which they alone hold up) count as ends. The supports stay planar: vertices whose walls would cross another
+/// wall stay.
 StraightenedSupports straighten_supports(const SupportForest& forest, const std::vector<char>& pinned,
                                          const CavityBoundary& boundary, Unit step);
 

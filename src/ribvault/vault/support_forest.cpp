@@ -12,7 +12,8 @@ SupportVertex vertex_between(const SupportVertex& a, const SupportVertex& b, Poi
 
 double length(const SupportForest& forest) {
     double sum = 0;
-    for (auto [e, end] = edges(forest); e != end; ++e) sum += length(forest[source(*e, forest)].at - forest[target(*e, forest)].at);
+    for (auto [e, end] = edges(forest); e != end; ++e)
+        sum += length(forest[source(*e, forest)].at - forest[target(*e, forest)].at);
     return sum;
 }
 

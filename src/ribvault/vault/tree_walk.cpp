@@ -4,7 +4,9 @@
 
 namespace ribvault {
 
-std::size_t TreeWalk::farthest() const { return static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin()); }
+std::size_t TreeWalk::farthest() const {
+    return static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin());
+}
 
 TreeWalk walk_from(std::size_t start, const SupportForest& forest) {
     TreeWalk walk{{start}, {start}, {0}};

@@ -14,8 +14,10 @@ Unit floor_div(Unit a, Unit b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 }  // namespace
 
 UnsupportedCells::UnsupportedCells(const Region& unsupported, const Settings& settings)
-    : pitch_(settings.sampling_pitch), radius_(static_cast<double>(settings.nozzle / 2 + settings.support_radius)),
-      slack_(static_cast<double>(settings.slack)), location_(edges_of(unsupported), cell_pixels * settings.sampling_pitch) {
+    : pitch_(settings.sampling_pitch),
+      radius_(static_cast<double>(settings.nozzle / 2 + settings.support_radius)),
+      slack_(static_cast<double>(settings.slack)),
+      location_(edges_of(unsupported), cell_pixels * settings.sampling_pitch) {
     const Unit size = cell_pixels * pitch_;
     const Box& box = location_.box();
     const Unit x0 = floor_div(box.lo.x, size), x1 = floor_div(box.hi.x, size);
@@ -41,12 +43,14 @@ UnsupportedCells::UnsupportedCells(const Region& unsupported, const Settings& se
                 const Unit last = static_cast<Unit>(std::floor((crossings[k + 1].first - half) / pitch));
                 for (Unit px = first; px <= last; ++px) {
                     const Unit cx = floor_div(px, cell_pixels);
-                    row[static_cast<std::size_t>(cx - x0)] |= std::uint64_t{1} << (line * cell_pixels + (px - cx * cell_pixels));
+                    row[static_cast<std::size_t>(cx - x0)] |= std::uint64_t{1}
+                                                              << (line * cell_pixels + (px - cx * cell_pixels));
                 }
             }
         }
         for (Unit cx = x0; cx <= x1; ++cx) {
-            const Cell cell{{{cx * size, cy * size}, {(cx + 1) * size, (cy + 1) * size}}, row[static_cast<std::size_t>(cx - x0)]};
+            const Cell cell{{{cx * size, cy * size}, {(cx + 1) * size, (cy + 1) * size}},
+                            row[static_cast<std::size_t>(cx - x0)]};
             if (cell.pixels == 0 && !location_.edge_meets(cell.box)) continue;
             cell_at_.emplace_hint(cell_at_.end(), std::pair(cy, cx), cells_.size());
             cells_.push_back(cell);
@@ -55,14 +59,16 @@ UnsupportedCells::UnsupportedCells(const Region& unsupported, const Settings& se
 }
 
 Point UnsupportedCells::pixel(const Cell& cell, Unit bit) const {
-    return {cell.box.lo.x + bit % cell_pixels * pitch_ + pitch_ / 2, cell.box.lo.y + bit / cell_pixels * pitch_ + pitch_ / 2};
+    return {cell.box.lo.x + bit % cell_pixels * pitch_ + pitch_ / 2,
+            cell.box.lo.y + bit / cell_pixels * pitch_ + pitch_ / 2};
 }
 
 bool UnsupportedCells::covered(const Box& box, const GrowingSupports& supports) const {
     const Unit size = cell_pixels * pitch_;
     for (Unit cy = floor_div(box.lo.y, size); cy <= floor_div(box.hi.y, size); ++cy) {
         const Unit last = floor_div(box.hi.x, size);
-        for (auto it = cell_at_.lower_bound({cy, floor_div(box.lo.x, size)}); it != cell_at_.end() && it->first <= std::pair(cy, last); ++it)
+        for (auto it = cell_at_.lower_bound({cy, floor_div(box.lo.x, size)});
+             it != cell_at_.end() && it->first <= std::pair(cy, last); ++it)
             if (find_uncovered(cells_[it->second].box, box, supports, [](Point) { return true; })) return false;
     }
     return true;

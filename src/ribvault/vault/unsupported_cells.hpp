@@ -25,9 +25,9 @@ public:
     Point pixel(const Cell& cell, Unit bit) const;
 
     /// Looks for points of the region inside `cell` that no wall covers: halves the cell until each part lies within
-    /// r + ρ of one wall or shows a point that is not covered. Calls found(p) for such points, at most one a part, until it
-    /// returns true; returns whether it did. A part smaller than the slack is covered when its centre is, with the slack to
-    /// spare, so this ends; parts outside `window` are left out.
+    /// r + ρ of one wall or shows a point that is not covered. Calls found(p) for such points, at most one a part,
+    /// until it returns true; returns whether it did. A part smaller than the slack is covered when its centre is, with
+    /// the slack to spare, so this ends; parts outside `window` are left out.
     template <class Found>
     bool find_uncovered(const Box& cell, const Box& window, const GrowingSupports& supports, Found&& found) const {
         return search(cell, window, supports, true, found);
@@ -42,7 +42,8 @@ public:
 private:
     template <class Found>
     bool search(const Box& box, const Box& window, const GrowingSupports& supports, bool edges, Found&& found) const {
-        if (box.lo.x > window.hi.x || box.hi.x < window.lo.x || box.lo.y > window.hi.y || box.hi.y < window.lo.y) return false;
+        if (box.lo.x > window.hi.x || box.hi.x < window.lo.x || box.lo.y > window.hi.y || box.hi.y < window.lo.y)
+            return false;
         const Point c = centre(box);
         const double half = half_diagonal(box);
         if (supports.covers(c, radius_ - half)) return false;
@@ -50,7 +51,8 @@ private:
         const Side side = location_.locate(c);
         if (!edges && side == Side::outside) return false;
         if (!supports.covers(c, radius_ - slack_) && (side != Side::outside || half <= slack_)) return found(c);
-        for (const Box& part : {Box{box.lo, c}, Box{{c.x, box.lo.y}, {box.hi.x, c.y}}, Box{{box.lo.x, c.y}, {c.x, box.hi.y}}, Box{c, box.hi}})
+        for (const Box& part : {Box{box.lo, c}, Box{{c.x, box.lo.y}, {box.hi.x, c.y}},
+                                Box{{box.lo.x, c.y}, {c.x, box.hi.y}}, Box{c, box.hi}})
             if (search(part, window, supports, edges, found)) return true;
         return false;
     }

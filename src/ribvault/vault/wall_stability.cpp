@@ -14,16 +14,23 @@ double standing_height(const SupportVertex& v, const Settings& settings) {
     return static_cast<double>(v.standing + 1) * static_cast<double>(settings.layer_height);
 }
 
-/// One wall between two vertices: what stands on it changes evenly along it, the way to a root rises to a peak and falls.
+/// One wall between two vertices: what stands on it changes evenly along it, the way to a root rises to a peak and
+/// falls.
 class WallProfile {
 public:
     WallProfile(const SupportVertex& a, const SupportVertex& b, double root_a, double root_b, const Settings& settings)
-        : a_(a.at), b_(b.at), l_(length(b.at - a.at)), root_a_(root_a), root_b_(root_b), height_a_(standing_height(a, settings)),
+        : a_(a.at),
+          b_(b.at),
+          l_(length(b.at - a.at)),
+          root_a_(root_a),
+          root_b_(root_b),
+          height_a_(standing_height(a, settings)),
           height_b_(standing_height(b, settings)),
           width_(static_cast<double>(wall_width(a, settings))) {}
 
     SlenderPlace worst() const {
-        const double peak = std::clamp((root_b_ + l_ - root_a_) / 2, 0.0, l_), slope = l_ > 0 ? (height_b_ - height_a_) / l_ : 0;
+        const double peak = std::clamp((root_b_ + l_ - root_a_) / 2, 0.0, l_),
+                     slope = l_ > 0 ? (height_b_ - height_a_) / l_ : 0;
         SlenderPlace worst;
         const auto look = [&](double t) {
             if (!(t >= 0 && t <= l_)) return;
@@ -43,7 +50,8 @@ private:
         place.standing = height_a_ + share * (height_b_ - height_a_);
         place.to_root = std::min(root_a_ + t, root_b_ + l_ - t);
         place.ratio = std::min(place.standing, place.to_root) / width_;
-        place.at = a_ + Point{round_to_lattice(share * static_cast<double>(b_.x - a_.x)), round_to_lattice(share * static_cast<double>(b_.y - a_.y))};
+        place.at = a_ + Point{round_to_lattice(share * static_cast<double>(b_.x - a_.x)),
+                              round_to_lattice(share * static_cast<double>(b_.y - a_.y))};
         return place;
     }
 
@@ -63,7 +71,8 @@ std::vector<double> distances_to_roots(const SupportForest& forest) {
         queue.pop();
         if (d > distance[v]) continue;
         for (auto [w, end] = adjacent_vertices(v, forest); w != end; ++w)
-            if (const double way = d + length(forest[*w].at - forest[v].at); way < distance[*w]) queue.push({distance[*w] = way, *w});
+            if (const double way = d + length(forest[*w].at - forest[v].at); way < distance[*w])
+                queue.push({distance[*w] = way, *w});
     }
     return distance;
 }

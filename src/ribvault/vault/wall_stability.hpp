@@ -1,4 +1,5 @@
-// How steady the walls of a layer stand, and which of them are printed with several tracks side by side (beyond the paper).
+// How steady the walls of a layer stand, and which of them are printed with several tracks side by side (beyond the
+// paper).
 #pragma once
 
 #include "ribvault/settings.hpp"
@@ -6,14 +7,14 @@
 
 namespace ribvault {
 
-/// How wide the wall through this vertex is printed, in lattice units: wide trees as settings.wall_lines tracks side by side
-/// (print/wide_walls.hpp), all others as one. The same for all vertices of a tree.
+/// How wide the wall through this vertex is printed, in lattice units: wide trees as settings.wall_lines tracks side by
+/// side (print/wide_walls.hpp), all others as one. The same for all vertices of a tree.
 inline Unit wall_width(const SupportVertex& v, const Settings& settings) {
     return v.wide ? settings.wall_lines * settings.nozzle : settings.nozzle;
 }
 
-/// Where a wall sways most easily. A place of a wall is held from below by what the wall stands on and from the side by the
-/// nearest root; the nearer of the two decides.
+/// Where a wall sways most easily. A place of a wall is held from below by what the wall stands on and from the side by
+/// the nearest root; the nearer of the two decides.
 struct SlenderPlace {
     double ratio = 0;     ///< free height over width: min(standing, to root) / width
     double standing = 0;  ///< lattice units: height of the wall from the bottom of this layer up
@@ -23,8 +24,9 @@ struct SlenderPlace {
 /// The place of the greatest ratio among internal supports; all zero without walls. Exact up to double arithmetic.
 SlenderPlace most_slender(const SupportForest& forest, const Settings& settings);
 
-/// Marks the trees (SupportVertex::wide; their walls have no gaps at junctions, SupportEdge::to_junction) that reach farther from their roots than settings.wall_lines_longer, that carry more than
-/// settings.wall_lines_taller, or that grew out of such a tree. Does nothing with one line a wall.
+/// Marks the trees (SupportVertex::wide; their walls have no gaps at junctions, SupportEdge::to_junction) that reach
+/// farther from their roots than settings.wall_lines_longer, that carry more than settings.wall_lines_taller, or that
+/// grew out of such a tree. Does nothing with one line a wall.
 void mark_wide_trees(SupportForest& forest, const Settings& settings);
 
 /// How many trees are marked.

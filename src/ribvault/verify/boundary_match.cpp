@@ -82,7 +82,9 @@ private:
             std::optional<Start> best;
             for (std::size_t k = 0; k < fixed_.size(); ++k) {
                 const Window& box = boxes_[k];
-                if (used_[k] || p.x < box.lo_x - reach_ || p.x > box.hi_x + reach_ || p.y < box.lo_y - reach_ || p.y > box.hi_y + reach_) continue;
+                if (used_[k] || p.x < box.lo_x - reach_ || p.x > box.hi_x + reach_ || p.y < box.lo_y - reach_ ||
+                    p.y > box.hi_y + reach_)
+                    continue;
                 const Loop& other = fixed_[k];
                 for (std::size_t j = 0; j < other.size(); ++j) {
                     const Foot f = foot(other[j], other[j + 1 < other.size() ? j + 1 : 0], p);
@@ -178,7 +180,8 @@ private:
         if (grid_) return;
         const auto lengths = [](const std::vector<Spot>& chain, std::vector<double>& far) {
             far.assign(chain.size(), 0);
-            for (std::size_t k = 1; k < chain.size(); ++k) far[k] = far[k - 1] + std::sqrt(squared(chain[k - 1], chain[k]));
+            for (std::size_t k = 1; k < chain.size(); ++k)
+                far[k] = far[k - 1] + std::sqrt(squared(chain[k - 1], chain[k]));
         };
         lengths(a_, far_a_), lengths(b_, far_b_);
         edges_.clear();
@@ -204,11 +207,12 @@ private:
 
 }  // namespace
 
-std::optional<std::vector<Window>> windows_of_change(std::span<const Vertex> vertices, std::span<const Edge> moved, std::span<const Edge> fixed,
-                                                     double distance) {
+std::optional<std::vector<Window>> windows_of_change(std::span<const Vertex> vertices, std::span<const Edge> moved,
+                                                     std::span<const Edge> fixed, double distance) {
     double c = distance;
     for (const Vertex& v : vertices) c = std::max({c, std::abs(v.cx), std::abs(v.cy)});
-    // Vertices are off by 2^-50 c, feet by some times that, squared distances by 2^-50 of themselves and 2^-48 c times the distance.
+    // Vertices are off by 2^-50 c, feet by some times that, squared distances by 2^-50 of themselves and 2^-48 c times
+    // the distance.
     const double margin = std::ldexp(c, -34);
     if (distance <= 4 * margin) return std::nullopt;
     std::optional<std::vector<Loop>> a = loops_of(vertices, moved), b = loops_of(vertices, fixed);

@@ -30,7 +30,9 @@ Vector along(const PrintedTrack& t, double mm) {
 }
 
 bool starts_at_joint(const UnsupportedPiece& p) { return p.from_mm < joint; }
-bool ends_at_joint(const PrintedLayer& upper, const UnsupportedPiece& p) { return p.to_mm > length(upper.tracks[p.track]) - joint; }
+bool ends_at_joint(const PrintedLayer& upper, const UnsupportedPiece& p) {
+    return p.to_mm > length(upper.tracks[p.track]) - joint;
+}
 
 /// All points in order along the straight line from the first to the last, to within straight_mm.
 bool is_straight(const std::vector<Vector>& points) {
@@ -49,8 +51,8 @@ bool is_straight(const std::vector<Vector>& points) {
 
 }  // namespace
 
-std::vector<Bridge> find_bridges(const PrintedLayer& upper, const std::vector<char>& continues, const std::vector<char>& judged,
-                                 const PrintedVerdict& verdict, double longest) {
+std::vector<Bridge> find_bridges(const PrintedLayer& upper, const std::vector<char>& continues,
+                                 const std::vector<char>& judged, const PrintedVerdict& verdict, double longest) {
     std::vector<Bridge> bridges;
     const auto& pieces = verdict.pieces;
     const auto joined = [&](std::size_t track) { return track < upper.tracks.size() && continues[track] != 0; };
@@ -59,15 +61,17 @@ std::vector<Bridge> find_bridges(const PrintedLayer& upper, const std::vector<ch
         last = first;
         std::vector<Vector> points{along(upper.tracks[pieces[first].track], pieces[first].from_mm)};
         double sum = pieces[first].to_mm - pieces[first].from_mm;
-        while (last + 1 < pieces.size() && pieces[last + 1].track == pieces[last].track + 1 && joined(pieces[last + 1].track) &&
-               ends_at_joint(upper, pieces[last]) && starts_at_joint(pieces[last + 1])) {
+        while (last + 1 < pieces.size() && pieces[last + 1].track == pieces[last].track + 1 &&
+               joined(pieces[last + 1].track) && ends_at_joint(upper, pieces[last]) &&
+               starts_at_joint(pieces[last + 1])) {
             ++last;
             points.push_back(place(upper.tracks[pieces[last].track].a));
             sum += pieces[last].to_mm - pieces[last].from_mm;
         }
         points.push_back(along(upper.tracks[pieces[last].track], pieces[last].to_mm));
         const std::size_t before = pieces[first].track, after = pieces[last].track + 1;
-        const bool held_before = !starts_at_joint(pieces[first]) || (joined(before) && before > 0 && is_judged(before - 1));
+        const bool held_before =
+            !starts_at_joint(pieces[first]) || (joined(before) && before > 0 && is_judged(before - 1));
         const bool held_after = !ends_at_joint(upper, pieces[last]) || (joined(after) && is_judged(after));
         if (!held_before || !held_after || sum > longest || !is_straight(points)) continue;
         Bridge bridge;
@@ -78,8 +82,8 @@ std::vector<Bridge> find_bridges(const PrintedLayer& upper, const std::vector<ch
     return bridges;
 }
 
-WithoutBridges take_out_bridges(const PrintedLayer& upper, const std::vector<char>& continues, const PrintedVerdict& verdict,
-                                const std::vector<Bridge>& bridges) {
+WithoutBridges take_out_bridges(const PrintedLayer& upper, const std::vector<char>& continues,
+                                const PrintedVerdict& verdict, const std::vector<Bridge>& bridges) {
     struct Cut {
         double from, to;  // mm along the track
     };
@@ -95,11 +99,14 @@ WithoutBridges take_out_bridges(const PrintedLayer& upper, const std::vector<cha
             const double whole = length(upper.tracks[track]);
             cuts[track].push_back(at_start ? Cut{-1, width} : Cut{whole - width, whole + 1});
         };
-        const UnsupportedPiece &first = verdict.pieces[bridge.pieces.front()], &last = verdict.pieces[bridge.pieces.back()];
+        const UnsupportedPiece &first = verdict.pieces[bridge.pieces.front()],
+                               &last = verdict.pieces[bridge.pieces.back()];
         const double w0 = upper.tracks[first.track].width.get_d(), w1 = upper.tracks[last.track].width.get_d();
-        if (first.from_mm < w0 && first.track > 0 && continues[first.track] != 0) beyond(first.track - 1, false, w0 - first.from_mm);
+        if (first.from_mm < w0 && first.track > 0 && continues[first.track] != 0)
+            beyond(first.track - 1, false, w0 - first.from_mm);
         const double left = length(upper.tracks[last.track]) - last.to_mm;
-        if (left < w1 && last.track + 1 < upper.tracks.size() && continues[last.track + 1] != 0) beyond(last.track + 1, true, w1 - left);
+        if (left < w1 && last.track + 1 < upper.tracks.size() && continues[last.track + 1] != 0)
+            beyond(last.track + 1, true, w1 - left);
     }
     WithoutBridges result{{upper.z, upper.height, {}}, {}};
     for (std::size_t k = 0; k < upper.tracks.size(); ++k) {

@@ -14,18 +14,19 @@ struct Bridge {
     double length_mm = 0;             ///< along the path, rounded up
 };
 
-/// The pieces that violate equation (1), joined over the joints of a path, which are a bridge: no longer than `longest` mm, straight to
-/// within 0.01 mm, and on both sides the path goes on with material that is held up. `continues` says of each track of
-/// `upper` whether it starts where the one before it ended, without a travel; a path's free end bridges nothing.
-std::vector<Bridge> find_bridges(const PrintedLayer& upper, const std::vector<char>& continues, const std::vector<char>& judged,
-                                 const PrintedVerdict& verdict, double longest);
+/// The pieces that violate equation (1), joined over the joints of a path, which are a bridge: no longer than `longest`
+/// mm, straight to within 0.01 mm, and on both sides the path goes on with material that is held up. `continues` says
+/// of each track of `upper` whether it starts where the one before it ended, without a travel; a path's free end
+/// bridges nothing.
+std::vector<Bridge> find_bridges(const PrintedLayer& upper, const std::vector<char>& continues,
+                                 const std::vector<char>& judged, const PrintedVerdict& verdict, double longest);
 
 /// What is left of the tracks above when bridges are taken out, each with one track width at both its ends.
 struct WithoutBridges {
     PrintedLayer layer;
     std::vector<std::size_t> origin;  ///< per track of `layer`: its index in `upper`
 };
-WithoutBridges take_out_bridges(const PrintedLayer& upper, const std::vector<char>& continues, const PrintedVerdict& verdict,
-                                const std::vector<Bridge>& bridges);
+WithoutBridges take_out_bridges(const PrintedLayer& upper, const std::vector<char>& continues,
+                                const PrintedVerdict& verdict, const std::vector<Bridge>& bridges);
 
 }  // namespace ribvault

@@ -44,7 +44,8 @@ int certain_turn(const Subdivision& s, double dx, double dy, double vx, double v
                          0x1p-50 * (std::abs(p) + std::abs(q) + s.margin * s.margin);
     return p - q > error ? 1 : p - q < -error ? -1 : 0;
 }
-// On which side of an edge's line (x, y) lies; exact when doubles do not tell, as for edges shorter than their rounding.
+// On which side of an edge's line (x, y) lies; exact when doubles do not tell, as for edges shorter than their
+// rounding.
 int side_of_edge(const Subdivision& s, const Track& t, const Edge& e, double x, double y) {
     const int turn = certain_turn(s, t.dx, t.dy, x - t.ax, y - t.ay);
     if (turn != 0) return turn;
@@ -95,8 +96,10 @@ Vec<double> off_lines(const Subdivision& s, const Cell& cell) {
     return {x, y};
 }
 
-// Winding number of all edges about a point on none of them: those that a ray to +x crosses. A vertex on the ray counts as above it.
-int winding_at(const Subdivision& s, const std::vector<Track>& tracks, const std::vector<Edge>& edges, double x, double y) {
+// Winding number of all edges about a point on none of them: those that a ray to +x crosses. A vertex on the ray counts
+// as above it.
+int winding_at(const Subdivision& s, const std::vector<Track>& tracks, const std::vector<Edge>& edges, double x,
+               double y) {
     const auto above = [&](double height, int vertex) {
         if (height > y + s.margin) return true;
         if (height < y - s.margin) return false;
@@ -152,8 +155,10 @@ Subdivision subdivision(const CoverProblem& problem) {
 }
 
 Window root_square(const Subdivision& s, const Window& window) {
-    const double half = std::max(window.hi_x - window.lo_x, window.hi_y - window.lo_y) / 2, grown = 1.0173 * half + 64 * s.margin;
-    const double x = (window.lo_x + window.hi_x) / 2 + 0.0137 * half, y = (window.lo_y + window.hi_y) / 2 - 0.0091 * half;
+    const double half = std::max(window.hi_x - window.lo_x, window.hi_y - window.lo_y) / 2,
+                 grown = 1.0173 * half + 64 * s.margin;
+    const double x = (window.lo_x + window.hi_x) / 2 + 0.0137 * half,
+                 y = (window.lo_y + window.hi_y) / 2 - 0.0091 * half;
     return {x - grown, y - grown, x + grown, y + grown};
 }
 

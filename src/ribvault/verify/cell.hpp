@@ -39,8 +39,8 @@ struct Subdivision {
 };
 Subdivision subdivision(const CoverProblem& problem);
 
-/// The square of the first cell for a window: a little larger than the square about it and off its middle, as symmetric input has its
-/// edges on lines through the middle.
+/// The square of the first cell for a window: a little larger than the square about it and off its middle, as symmetric
+/// input has its edges on lines through the middle.
 Window root_square(const Subdivision& s, const Window& window);
 
 /// That cell into `cell`, and its state. The lists and windings are complete in any case.

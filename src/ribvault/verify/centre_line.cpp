@@ -65,7 +65,8 @@ private:
     bool covered_by(int i, Covered& covered);
     bool certainly_apart(const FrameStadium& f) const;
     CentreGap gap_between(End from, End& to, bool exact_ends);
-    std::optional<std::vector<CentreGap>> gaps_in_doubles(std::vector<Covered>& all, End& begin, End& end, bool exact_ends);
+    std::optional<std::vector<CentreGap>> gaps_in_doubles(std::vector<Covered>& all, End& begin, End& end,
+                                                          bool exact_ends);
     std::vector<CentreGap> gaps_in_order(std::vector<Covered>& all, End& begin, End& end, bool exact_ends);
 
     const PrintedTrack& track_;
@@ -126,8 +127,9 @@ CentreGap Line::gap_between(End from, End& to, bool exact_ends) {
     return gap;
 }
 
-/// How far the line is covered: the farthest of ends that doubles do not tell apart, between lo and hi. Tracks below that follow each other
-/// share a disc, in which their stretches end at the same point: which of them it is seldom matters.
+/// How far the line is covered: the farthest of ends that doubles do not tell apart, between lo and hi. Tracks below
+/// that follow each other share a disc, in which their stretches end at the same point: which of them it is seldom
+/// matters.
 struct Reached {
     double lo, hi;
     std::vector<End*> ends;
@@ -141,9 +143,10 @@ struct Reached {
     }
 };
 
-// By increasing lower bounds of where they begin: when one certainly begins beyond what is covered so far, so do all after it.
-// Nothing when doubles do not decide.
-std::optional<std::vector<CentreGap>> Line::gaps_in_doubles(std::vector<Covered>& all, End& begin, End& end, bool exact_ends) {
+// By increasing lower bounds of where they begin: when one certainly begins beyond what is covered so far, so do all
+// after it. Nothing when doubles do not decide.
+std::optional<std::vector<CentreGap>> Line::gaps_in_doubles(std::vector<Covered>& all, End& begin, End& end,
+                                                            bool exact_ends) {
     std::sort(all.begin(), all.end(), [](const Covered& p, const Covered& q) { return p.from.lo < q.from.lo; });
     std::vector<CentreGap> found;
     Reached reached(begin);

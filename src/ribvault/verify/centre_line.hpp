@@ -14,7 +14,8 @@ namespace ribvault::verify {
 /// unless the track is a dot.
 struct CentreGap {
     QuadraticNumber from, to;  ///< when ends were asked for
-    double from_lo = 0, from_hi = 0, to_lo = 0, to_hi = 0;  ///< mm along the track: where it begins and ends lies between these
+    double from_lo = 0, from_hi = 0, to_lo = 0,
+           to_hi = 0;  ///< mm along the track: where it begins and ends lies between these
 };
 
 /// Where a + t (b - a), any t, is within `radius` of the centre line of `below`; nothing when nowhere.
@@ -31,8 +32,8 @@ struct Below {
     std::span<const FrameStadium> seen;       ///< those in the frame of the track
 };
 
-/// The stretches of the centre line outside all stadiums of `below`, in order, decided exactly; their ends exactly only with
-/// `exact_ends`. Adds its decision to `stages`.
+/// The stretches of the centre line outside all stadiums of `below`, in order, decided exactly; their ends exactly only
+/// with `exact_ends`. Adds its decision to `stages`.
 std::vector<CentreGap> centre_gaps(const PrintedTrack& track, const PreparedTrack& prepared, const Below& below,
                                    double margin, bool exact_ends, StageCounts& stages);
 

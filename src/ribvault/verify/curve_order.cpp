@@ -83,8 +83,8 @@ bool apart(const Vec<Rational>& p, const Vec<Rational>& q, unsigned bits) {
     return abs(Rational(p.x - q.x)) > least || abs(Rational(p.y - q.y)) > least;
 }
 
-// Whether two vertices of one curve are one point. v on both curves of w is one of the points that these have in common: which
-// one shows when they are computed closely enough.
+// Whether two vertices of one curve are one point. v on both curves of w is one of the points that these have in
+// common: which one shows when they are computed closely enough.
 bool same_point(TraceProblem& trace, int curve, int v_index, int w_index) {
     TraceVertex &v = vertex_of(trace, v_index), &w = vertex_of(trace, w_index);
     if (CGAL::certainly(v.at.x != w.at.x) || CGAL::certainly(v.at.y != w.at.y)) return false;
@@ -99,8 +99,8 @@ bool same_point(TraceProblem& trace, int curve, int v_index, int w_index) {
     }
 }
 
-// Which of two different points comes first, given that they are close to each other: the sign of b's place minus a's, to ever
-// more digits. A difference of two coordinates is within 2^-bits 2 of its value.
+// Which of two different points comes first, given that they are close to each other: the sign of b's place minus a's,
+// to ever more digits. A difference of two coordinates is within 2^-bits 2 of its value.
 int closely_ordered(TraceProblem& trace, const Curve& c, int v, int w) {
     const Vec<Rational> a = at<Rational>(trace, c.a);
     for (unsigned bits = 128;; bits *= 2) {
@@ -111,7 +111,8 @@ int closely_ordered(TraceProblem& trace, const Curve& c, int v, int w) {
             ahead = dot(q - p, d), size = abs(d.x) + abs(d.y);
         } else {  // cross(p - a, q - a) = cross(p - a, q - p)
             ahead = cross(p - a, q - a);
-            size = abs(Rational(p.x - a.x)) + abs(Rational(p.y - a.y)) + abs(Rational(q.x - a.x)) + abs(Rational(q.y - a.y)) + 1;
+            size = abs(Rational(p.x - a.x)) + abs(Rational(p.y - a.y)) + abs(Rational(q.x - a.x)) +
+                   abs(Rational(q.y - a.y)) + 1;
         }
         mpq_div_2exp(size.get_mpq_t(), size.get_mpq_t(), bits - 2);
         if (abs(ahead) > size) return sgn(ahead);
@@ -234,19 +235,23 @@ CurvePoint point_between(TraceProblem& trace, int curve, const Place& from, cons
 
 CurvePoint point_of_circle(const TraceProblem& trace, int curve) { return on_circle(trace, curve, 0, Rational(0)); }
 
-// With v = u + k n the way from the track's end to the point, k = across sqrt(norm): every number is one of Q(sqrt norm).
+// With v = u + k n the way from the track's end to the point, k = across sqrt(norm): every number is one of Q(sqrt
+// norm).
 int compare_distance(const CurvePoint& p, const RationalPoint& a, const RationalPoint& b, const Rational& radius) {
     const auto square = [&](const Rational& u, const Rational& v) {  // (u + v k)^2
-        return QuadraticNumber{Rational(u * u + v * v * p.across * p.across * p.norm), Rational(2 * u * v * p.across), p.norm};
+        return QuadraticNumber{Rational(u * u + v * v * p.across * p.across * p.norm), Rational(2 * u * v * p.across),
+                               p.norm};
     };
     const Rational dx = b[0] - a[0], dy = b[1] - a[1], dd = dx * dx + dy * dy, rr = radius * radius;
     const Rational &nx = p.normal[0], &ny = p.normal[1];
     const auto to_end = [&](const RationalPoint& end) {
-        const QuadraticNumber x = square(Rational(p.base[0] - end[0]), nx), y = square(Rational(p.base[1] - end[1]), ny);
+        const QuadraticNumber x = square(Rational(p.base[0] - end[0]), nx),
+                              y = square(Rational(p.base[1] - end[1]), ny);
         return sign(QuadraticNumber{Rational(x.p + y.p - rr), Rational(x.q + y.q), p.norm});
     };
     const Rational ux = p.base[0] - a[0], uy = p.base[1] - a[1];
-    const Rational ahead = ux * dx + uy * dy, turns = dx * uy - dy * ux, n_ahead = nx * dx + ny * dy, n_turns = dx * ny - dy * nx;
+    const Rational ahead = ux * dx + uy * dy, turns = dx * uy - dy * ux, n_ahead = nx * dx + ny * dy,
+                   n_turns = dx * ny - dy * nx;
     if (sign(QuadraticNumber{ahead, Rational(n_ahead * p.across), p.norm}) <= 0) return to_end(a);
     if (sign(QuadraticNumber{Rational(ahead - dd), Rational(n_ahead * p.across), p.norm}) >= 0) return to_end(b);
     const QuadraticNumber across = square(turns, n_turns);
@@ -258,7 +263,8 @@ RationalPoint approximation(const CurvePoint& p, unsigned bits) {
     // across sqrt(norm) is some length times 1 / |normal|: more digits than `bits` by those of |normal|.
     int exponent = 0;
     std::frexp(std::abs(p.normal[0].get_d()) + std::abs(p.normal[1].get_d()), &exponent);
-    const Rational k = enclose(QuadraticNumber{0, p.across, p.norm}, bits + static_cast<unsigned>(std::max(0, exponent)) + 64)[0];
+    const Rational k =
+        enclose(QuadraticNumber{0, p.across, p.norm}, bits + static_cast<unsigned>(std::max(0, exponent)) + 64)[0];
     return {Rational(p.base[0] + k * p.normal[0]), Rational(p.base[1] + k * p.normal[1])};
 }
 

@@ -5,15 +5,15 @@
 
 namespace ribvault::verify {
 
-/// A vertex on a curve and an enclosure of its place there: circles: its angle, counterclockwise from a direction that is far from
-/// all vertices of the curve, in radians; lines: the t of a + t (b - a) abreast of it.
+/// A vertex on a curve and an enclosure of its place there: circles: its angle, counterclockwise from a direction that
+/// is far from all vertices of the curve, in radians; lines: the t of a + t (b - a) abreast of it.
 struct Place {
     int vertex = 0;
     double lo = 0, hi = 0;
 };
 
-/// The vertices among `which` that lie at different points, in order along the curve; those that lie at one point are united.
-/// Precondition: all lie on the curve. Under upward rounding.
+/// The vertices among `which` that lie at different points, in order along the curve; those that lie at one point are
+/// united. Precondition: all lie on the curve. Under upward rounding.
 std::vector<Place> order_along(TraceProblem& trace, int curve, std::span<const int> which);
 
 /// A point of a curve, mm, exactly: base + across sqrt(norm) normal.
@@ -23,8 +23,8 @@ struct CurvePoint {
     double x = 0, y = 0;  ///< within the margin
 };
 
-/// A point of the curve strictly between two places that follow each other. `round`: from the last place of a circle to the first,
-/// which may be the same.
+/// A point of the curve strictly between two places that follow each other. `round`: from the last place of a circle to
+/// the first, which may be the same.
 CurvePoint point_between(TraceProblem& trace, int curve, const Place& from, const Place& to, bool round);
 
 /// A point of a circle.

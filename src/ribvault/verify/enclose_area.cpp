@@ -10,7 +10,8 @@ namespace {
 
 /// Whether they come within `margin` of each other.
 bool meet(const Window& p, const Window& q, double margin) {
-    return std::max(p.lo_x, q.lo_x) < std::min(p.hi_x, q.hi_x) + margin && std::max(p.lo_y, q.lo_y) < std::min(p.hi_y, q.hi_y) + margin;
+    return std::max(p.lo_x, q.lo_x) < std::min(p.hi_x, q.hi_x) + margin &&
+           std::max(p.lo_y, q.lo_y) < std::min(p.hi_y, q.hi_y) + margin;
 }
 
 /// Windows whose root cells do not overlap, in place of these.
@@ -52,7 +53,8 @@ Polygon clipped(const Polygon& polygon, Vec<double> n, double least) {
 double area_of(const Polygon& polygon) {
     double twice = 0;
     for (std::size_t i = 2; i < polygon.size(); ++i)
-        twice += (polygon[i - 1].x - polygon[0].x) * (polygon[i].y - polygon[0].y) - (polygon[i - 1].y - polygon[0].y) * (polygon[i].x - polygon[0].x);
+        twice += (polygon[i - 1].x - polygon[0].x) * (polygon[i].y - polygon[0].y) -
+                 (polygon[i - 1].y - polygon[0].y) * (polygon[i].x - polygon[0].x);
     return std::max(0.0, twice / 2);
 }
 
@@ -63,9 +65,9 @@ struct Part {
     Vec<double> middle{0, 0};  ///< of what is certainly uncovered, when lo > 0
 };
 
-/// In a cell that at most one edge of M crosses, from side to side as boundaries are closed, M is the cell or a half-plane of it. The
-/// distance f from a segment is convex and, at distances of d and more from it, has second derivatives of at most 1 / d. So with its gradient g at
-/// the centre c and the cell's half diagonal h
+/// In a cell that at most one edge of M crosses, from side to side as boundaries are closed, M is the cell or a
+/// half-plane of it. The distance f from a segment is convex and, at distances of d and more from it, has second
+/// derivatives of at most 1 / d. So with its gradient g at the centre c and the cell's half diagonal h
 ///     f(c) + g·(p - c) <= f(p) <= f(c) + g·(p - c) + h² / (2 (f(c) - h)),
 /// and M outside a stadium is between two polygons.
 Part bounded(const Subdivision& s, Cell&& open) {
@@ -112,7 +114,9 @@ Part bounded(const Subdivision& s, Cell&& open) {
     part.hi = area_of(most);
     if (nothing_certain) return part;
     part.lo = std::min(area_of(least), part.hi);
-    for (const Vec<double>& p : least) part.middle.x += p.x / static_cast<double>(least.size()), part.middle.y += p.y / static_cast<double>(least.size());
+    for (const Vec<double>& p : least)
+        part.middle.x += p.x / static_cast<double>(least.size()),
+            part.middle.y += p.y / static_cast<double>(least.size());
     part.middle.x += cell.x, part.middle.y += cell.y;
     return part;
 }
@@ -152,8 +156,8 @@ AreaEnclosure enclose_area(const CoverProblem& problem, std::span<const Window> 
         refer_to_centre(s, part.cell);
         for (int i = 0; i < 4; ++i) enter(quarter(s, part.cell, i, child));
     }
-    // The upper bound was rounded up at every step. The lower one never was above the area, so that rounding a few thousand sums is far
-    // below 1e-9 of it.
+    // The upper bound was rounded up at every step. The lower one never was above the area, so that rounding a few
+    // thousand sums is far below 1e-9 of it.
     area.lo = std::max(0.0, area.lo * (1 - 1e-9) - 1e-9 * (area.hi - area.lo));
     area.hi = area.hi * (1 + 1e-9);
     return area;

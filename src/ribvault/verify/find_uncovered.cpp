@@ -146,11 +146,13 @@ struct Leaf {
 
 }  // namespace
 
-std::optional<Uncovered> find_uncovered(const CoverProblem& problem, std::span<const Window> windows, StageCounts& stages) {
+std::optional<Uncovered> find_uncovered(const CoverProblem& problem, std::span<const Window> windows,
+                                        StageCounts& stages) {
     if (windows.empty()) return std::nullopt;
     const Subdivision s = subdivision(problem);
     double smallest = 0;
-    for (const Stadium& site : problem.sites) smallest = smallest == 0 ? site.radius.approx : std::min(smallest, site.radius.approx);
+    for (const Stadium& site : problem.sites)
+        smallest = smallest == 0 ? site.radius.approx : std::min(smallest, site.radius.approx);
     std::vector<Cell> open;
     Cell child;
     // Keeps `child` when it is open; says whether all of it is uncovered.
@@ -166,8 +168,9 @@ std::optional<Uncovered> find_uncovered(const CoverProblem& problem, std::span<c
         while (!open.empty()) {
             Cell cell = std::move(open.back());
             open.pop_back();
-            // A cell smaller than this that meets the boundary of K's region lies in the stadium there, so it is settled.
-            // Cells near the margin are the end in any case: doubles cannot tell points apart there, exact numbers do.
+            // A cell smaller than this that meets the boundary of K's region lies in the stadium there, so it is
+            // settled. Cells near the margin are the end in any case: doubles cannot tell points apart there, exact
+            // numbers do.
             const bool few = cell.sites.size() <= 3 && cell.edges.size() <= 4 && cell.pieces.size() <= 2;
             if (cell.region.empty() && (few || cell.half < smallest / 16 || cell.half < 64 * s.margin)) {
                 Uncovered found;

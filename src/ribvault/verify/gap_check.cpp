@@ -44,8 +44,11 @@ std::optional<Segment> find_too_near(const ExactPolygons& outline, const std::ve
         const ExactKernel::Point_2 a = exact_mm(track.a), b = exact_mm(track.b);
         const CGAL::Bbox_2 box = a.bbox() + b.bbox();
         for (const OutlineEdge& e : edges) {
-            if (e.box.xmin() > box.xmax() + by || e.box.xmax() < box.xmin() - by || e.box.ymin() > box.ymax() + by || e.box.ymax() < box.ymin() - by) continue;
-            const Number d = track.a == track.b ? CGAL::squared_distance(a, e.edge) : CGAL::squared_distance(ExactKernel::Segment_2(a, b), e.edge);
+            if (e.box.xmin() > box.xmax() + by || e.box.xmax() < box.xmin() - by || e.box.ymin() > box.ymax() + by ||
+                e.box.ymax() < box.ymin() - by)
+                continue;
+            const Number d = track.a == track.b ? CGAL::squared_distance(a, e.edge)
+                                                : CGAL::squared_distance(ExactKernel::Segment_2(a, b), e.edge);
             if (d < least) return track;
         }
         if (inside(edges, a)) return track;
@@ -59,7 +62,8 @@ std::optional<Segment> find_too_near(const NearestSegment& object, const std::ve
         box.add(track.a), box.add(track.b);
         box.grow(distance);
         bool near = false;
-        object.visit(box, [&](std::uint32_t k) { near = near || compare_distance(object.segments()[k], track, distance) < 0; });
+        object.visit(
+            box, [&](std::uint32_t k) { near = near || compare_distance(object.segments()[k], track, distance) < 0; });
         if (near) return track;
     }
     return std::nullopt;

@@ -160,7 +160,8 @@ Vec<double> approximate(const Located& v, const Direction& d) {
     return n > 0 ? Vec<double>{u.x / n, u.y / n} : Vec<double>{1, 0};
 }
 
-// M's points on that side are those at more than s^2 / 2 R_M from the ray, K's at more than s^2 / 2 R for the largest R.
+// M's points on that side are those at more than s^2 / 2 R_M from the ray, K's at more than s^2 / 2 R for the largest
+// R.
 Leaving leaving_along(Located& v, const Direction& d, const Extent& m, std::span<const LocalSite* const> beside,
                       int side) {
     Leaving leaving{d.a, d.b, d.turns, side, 0};
@@ -201,7 +202,8 @@ bool cone_covered(Located& v, std::span<const Ray> rays, std::span<const LocalSi
         if (ahead) continue;
         bool left = !m.left, right = !m.right;
         for (const LocalSite* site : beside) {
-            const bool flat_enough = straight_along(v, *site, d) || (m.radius.approx > 0 && no_greater(m.radius, site->radius));
+            const bool flat_enough =
+                straight_along(v, *site, d) || (m.radius.approx > 0 && no_greater(m.radius, site->radius));
             if (!flat_enough) continue;
             (cross_sign(v, d, site->normal) > 0 ? left : right) = true;
         }
@@ -255,7 +257,8 @@ Local decide_locally(Located& v, const Surroundings& near, Vec<double>& hint, Le
         if (side == Side::on) sites.push_back(local_site(v, problem.sites[s]));
     }
     if (inner_point) return cone_covered(v, {}, view(sites), hint, leaving) ? Local::covered : Local::uncovered;
-    if (!region_rays.empty() && !cone_covered(v, view(region_rays), view(sites), hint, leaving)) return Local::uncovered;
+    if (!region_rays.empty() && !cone_covered(v, view(region_rays), view(sites), hint, leaving))
+        return Local::uncovered;
     for (const int piece : boundary_pieces) {
         const LocalSite m = local_site(v, problem.pieces[piece]);
         // Material lies to the left of the tangent direction rot-90 of the inward normal.

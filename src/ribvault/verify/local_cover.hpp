@@ -23,8 +23,9 @@ enum class Local {
     unknown     ///< only when stages are limited
 };
 
-/// How M \ K leaves a point: the direction rot90^turns of (vertex b - vertex a), or of (vertex a - point) when b < 0, and
-/// on which side of that ray its points are, near v + s d + c s^2 n for small s > 0, n being the unit normal on that side.
+/// How M \ K leaves a point: the direction rot90^turns of (vertex b - vertex a), or of (vertex a - point) when b < 0,
+/// and on which side of that ray its points are, near v + s d + c s^2 n for small s > 0, n being the unit normal on
+/// that side.
 struct Leaving {
     int a = -1, b = -1, turns = 0;  ///< a < 0: in all directions
     int side = 0;                   ///< 1: left, -1: right

@@ -16,7 +16,7 @@ constexpr double most_integer = 0x1p26;  // squares of sums of two such numbers 
 struct Lengths {
     std::vector<const PrintedPoint*> ends;  ///< of the pieces, then of the sites
     std::vector<Millimetres> radii;         ///< of the pieces, then of the sites
-    double extent = 0;                      ///< at least all radii, and all ends' distances from the window's middle in x and y
+    double extent = 0;  ///< at least all radii, and all ends' distances from the window's middle in x and y
     template <class Visit>
     void visit(const Visit& visit) const {
         for (const PrintedPoint* end : ends) visit((*end)[0]), visit((*end)[1]);
@@ -30,8 +30,8 @@ double grown(double scale, double extent) {
     return scale;
 }
 
-/// How many picometres a unit is that divides all lengths and makes them integers that doubles multiply exactly; 0: there is none.
-/// It is the largest that divides 1 mm too.
+/// How many picometres a unit is that divides all lengths and makes them integers that doubles multiply exactly; 0:
+/// there is none. It is the largest that divides 1 mm too.
 std::int64_t common_unit(const Lengths& lengths, double extent) {
     std::int64_t unit = Millimetres::picometres_per_mm;
     bool whole = true;
@@ -88,7 +88,8 @@ Radius radius_of(const Rational& value, std::deque<ExactRadius>& radii) {
 }
 
 /// Vertices and radii where integers will do: lattice points. Says no where they will not.
-bool place_on_lattice(const Lengths& lengths, LocalProblem& local, std::vector<int>& vertex_of, std::vector<Radius>& radii) {
+bool place_on_lattice(const Lengths& lengths, LocalProblem& local, std::vector<int>& vertex_of,
+                      std::vector<Radius>& radii) {
     const double extent = 2 * lengths.extent;
     const std::int64_t unit = common_unit(lengths, extent);
     if (unit == 0) return false;
@@ -99,23 +100,28 @@ bool place_on_lattice(const Lengths& lengths, LocalProblem& local, std::vector<i
     std::vector<Point> ends;
     ends.reserve(lengths.ends.size());
     for (const PrintedPoint* end : lengths.ends)
-        ends.push_back({((*end)[0].picometres() - origin[0].picometres()) / unit * factor, ((*end)[1].picometres() - origin[1].picometres()) / unit * factor});
-    for (const Point p : distinct_points(ends, std::less<Point>(), vertex_of)) local.vertices.push_back(lattice_vertex(p));
+        ends.push_back({((*end)[0].picometres() - origin[0].picometres()) / unit * factor,
+                        ((*end)[1].picometres() - origin[1].picometres()) / unit * factor});
+    for (const Point p : distinct_points(ends, std::less<Point>(), vertex_of))
+        local.vertices.push_back(lattice_vertex(p));
     for (const Millimetres& r : lengths.radii) radii.emplace_back(static_cast<double>(r.picometres() / unit * factor));
     local.origin = rational(origin);
     local.scale = scale;
     return true;
 }
 
-void place_exactly(const Lengths& lengths, LocalProblem& local, std::vector<int>& vertex_of, std::vector<Radius>& radii) {
+void place_exactly(const Lengths& lengths, LocalProblem& local, std::vector<int>& vertex_of,
+                   std::vector<Radius>& radii) {
     local.origin = rational(*lengths.ends.front());
     local.scale = scale_for(lengths, 2 * lengths.extent);
     std::vector<RationalPoint> ends;
     for (const PrintedPoint* end : lengths.ends) ends.push_back(rational(*end));
     for (const RationalPoint& p : distinct_points(ends, std::less<RationalPoint>(), vertex_of))
-        local.points.push_back({Rational((p[0] - local.origin[0]) * local.scale), Rational((p[1] - local.origin[1]) * local.scale)});
+        local.points.push_back(
+            {Rational((p[0] - local.origin[0]) * local.scale), Rational((p[1] - local.origin[1]) * local.scale)});
     for (const Vec<Rational>& p : local.points) local.vertices.push_back(rational_vertex(p));
-    for (const Millimetres& r : lengths.radii) radii.push_back(radius_of(Rational(Rational(r) * local.scale), local.radii));
+    for (const Millimetres& r : lengths.radii)
+        radii.push_back(radius_of(Rational(Rational(r) * local.scale), local.radii));
 }
 
 }  // namespace
@@ -135,7 +141,8 @@ void build_local_problem(std::span<const PrintedTrack> upper, std::span<const in
     const auto add = [&](const PrintedTrack& t, const Millimetres& radius) {
         for (const PrintedPoint* end : {&t.a, &t.b}) {
             lengths.ends.push_back(end);
-            lengths.extent = std::max({lengths.extent, std::abs((*end)[0].get_d() - square.x), std::abs((*end)[1].get_d() - square.y)});
+            lengths.extent = std::max(
+                {lengths.extent, std::abs((*end)[0].get_d() - square.x), std::abs((*end)[1].get_d() - square.y)});
         }
         lengths.radii.push_back(radius);
         lengths.extent = std::max(lengths.extent, radius.get_d());
@@ -144,7 +151,8 @@ void build_local_problem(std::span<const PrintedTrack> upper, std::span<const in
         const PrintedTrack& t = upper[static_cast<std::size_t>(p)];
         add(t, half_plus(t.width, Millimetres()));
     }
-    for (const int k : local.sites) add(below.tracks[static_cast<std::size_t>(k)], below.radii[static_cast<std::size_t>(k)]);
+    for (const int k : local.sites)
+        add(below.tracks[static_cast<std::size_t>(k)], below.radii[static_cast<std::size_t>(k)]);
 
     local.points.clear(), local.vertices.clear(), local.radii.clear();
     std::vector<int> vertex_of;
@@ -153,7 +161,8 @@ void build_local_problem(std::span<const PrintedTrack> upper, std::span<const in
     local.problem = {};
     local.problem.vertices = local.vertices;
     for (std::size_t i = 0; i < radii.size(); ++i)
-        (i < pieces.size() ? local.problem.pieces : local.problem.sites).push_back({vertex_of[2 * i], vertex_of[2 * i + 1], radii[i]});
+        (i < pieces.size() ? local.problem.pieces : local.problem.sites)
+            .push_back({vertex_of[2 * i], vertex_of[2 * i + 1], radii[i]});
     // The same track twice, or turned round, is one site.
     for (Stadium& s : local.problem.sites)
         if (s.b < s.a) std::swap(s.a, s.b);

@@ -20,8 +20,8 @@ Rational power_of_two(int exponent) {
     return r;
 }
 
-/// The corners of a loop, rational and within `error` of the true ones in both coordinates; local units. bits 0: as doubles
-/// enclose them.
+/// The corners of a loop, rational and within `error` of the true ones in both coordinates; local units. bits 0: as
+/// doubles enclose them.
 struct Corners {
     std::vector<Vec<Rational>> at;  ///< where piece i begins
     Rational error;
@@ -41,7 +41,8 @@ Corners corners_of(TraceProblem& trace, const TraceLoop& loop, unsigned bits) {
         }
         const Interval &x = v.at.x, &y = v.at.y;
         corners.at.push_back({Rational((x.inf() + x.sup()) / 2), Rational((y.inf() + y.sup()) / 2)});
-        widest = std::max({widest, x.sup() - x.inf(), y.sup() - y.inf(), 0x1p-51 * std::abs(x.sup()), 0x1p-51 * std::abs(y.sup())});
+        widest = std::max(
+            {widest, x.sup() - x.inf(), y.sup() - y.inf(), 0x1p-51 * std::abs(x.sup()), 0x1p-51 * std::abs(y.sup())});
     }
     corners.error = bits > 0 ? power_of_two(-static_cast<int>(bits)) : Rational(widest);
     return corners;
@@ -64,8 +65,9 @@ private:
     mpfr_t value_;
 };
 
-// D - sin D to within 2^-(bits - 6) for the angle D of (cross, dot) plus the multiple of 2 pi that brings it nearest to `about`.
-// |D| <= 2 pi + 1. The quotients, the arctangent, 2 pi, the sum and the sine are each good to 2^-bits of at most 8.
+// D - sin D to within 2^-(bits - 6) for the angle D of (cross, dot) plus the multiple of 2 pi that brings it nearest to
+// `about`. |D| <= 2 pi + 1. The quotients, the arctangent, 2 pi, the sum and the sine are each good to 2^-bits of at
+// most 8.
 Rational segment_factor(const Rational& cross, const Rational& dot, double about, unsigned bits) {
     Real y(bits), x(bits), angle(bits), turn(bits), sine(bits);
     mpfr_set_q(y, cross.get_mpq_t(), MPFR_RNDN);
@@ -82,8 +84,8 @@ Rational segment_factor(const Rational& cross, const Rational& dot, double about
     return r;
 }
 
-// Between the arc and its chord: R^2 (D - sin D) / 2, positive for arcs to the left. When both ends are off by e or less, their
-// directions are off by 1.2 e / R each (e < R / 8), D - sin D by 2 as much as D, and this by 5 R e.
+// Between the arc and its chord: R^2 (D - sin D) / 2, positive for arcs to the left. When both ends are off by e or
+// less, their directions are off by 1.2 e / R each (e < R / 8), D - sin D by 2 as much as D, and this by 5 R e.
 std::array<Rational, 2> segment_area(const TraceProblem& trace, const TracePiece& piece, const Vec<Rational>& from,
                                      const Vec<Rational>& to, const Rational& error, unsigned bits) {
     const Curve& c = trace.curves[static_cast<std::size_t>(piece.curve)];
@@ -97,8 +99,8 @@ std::array<Rational, 2> segment_area(const TraceProblem& trace, const TracePiece
     return {piece.forward ? area : Rational(-area), off};
 }
 
-std::optional<std::array<Rational, 2>> area_with(const TraceProblem& trace, const TraceLoop& loop, const Corners& corners,
-                                                 unsigned bits) {
+std::optional<std::array<Rational, 2>> area_with(const TraceProblem& trace, const TraceLoop& loop,
+                                                 const Corners& corners, unsigned bits) {
     const auto size = [](const Vec<Rational>& p) { return Rational(abs(p.x) + abs(p.y)); };
     Rational area, off;
     const Vec<Rational> origin = corners.at.front();
@@ -137,12 +139,13 @@ public:
     }
 
 private:
-    static bool beyond(const Rational& a, const Rational& squared, const Rational& least) {  // |a| > least sqrt(squared)
+    static bool beyond(const Rational& a, const Rational& squared,
+                       const Rational& least) {  // |a| > least sqrt(squared)
         return a * a > least * least * squared;
     }
 
-    // How often the chord, or what runs from end to end of it and has p on its left when p is on it, crosses the ray from p in
-    // the direction of x: 1 upwards, -1 downwards. An end level with p counts as below it.
+    // How often the chord, or what runs from end to end of it and has p on its left when p is on it, crosses the ray
+    // from p in the direction of x: 1 upwards, -1 downwards. An end level with p counts as below it.
     int chord_crossing(const Vec<Rational>& from, const Vec<Rational>& to, const Rational& side) const {
         if ((from.y > p_.y) != (to.y > p_.y)) {
             const bool up = to.y > from.y;
@@ -163,14 +166,16 @@ private:
         const int n = closed ? 0 : chord_crossing(from, to, side);
         if (c.line) {
             const Rational ahead = dot(d, p_ - from);
-            const bool past = ahead < 0 ? beyond(ahead, norm, least_) : ahead > norm && beyond(Rational(ahead - norm), norm, least_);
+            const bool past =
+                ahead < 0 ? beyond(ahead, norm, least_) : ahead > norm && beyond(Rational(ahead - norm), norm, least_);
             return off_chord || past ? std::optional(n) : std::nullopt;
         }
         const Rational r = verify::number<Rational>(c.radius);
         const Vec<Rational> v = p_ - centre_of(trace_, c);
         const Rational vv = dot(v, v), inner = r - least_, outer = r + least_;
         const bool in = inner > 0 && vv < inner * inner, out = vv > outer * outer;
-        const bool arc_side = closed || (piece.forward ? side < 0 : side > 0);  // an arc to the left is right of its chord
+        const bool arc_side =
+            closed || (piece.forward ? side < 0 : side > 0);  // an arc to the left is right of its chord
         if (arc_side ? !in && !out : !in && !out && !off_chord) return std::nullopt;
         return arc_side && in ? n + (piece.forward ? 1 : -1) : n;
     }
@@ -199,14 +204,16 @@ std::array<Rational, 2> loops_area(TraceProblem& trace, std::span<const TraceLoo
     }
 }
 
-// A path moved by less than its distance to p runs round p as often. The loop is that far from the rational polygon of its corners
-// with the arcs on its chords, moved to these; and the polygon's number and that of the circular segments are known.
+// A path moved by less than its distance to p runs round p as often. The loop is that far from the rational polygon of
+// its corners with the arcs on its chords, moved to these; and the polygon's number and that of the circular segments
+// are known.
 int winding_number(TraceProblem& trace, const TraceLoop& loop, const CurvePoint& p) {
     for (unsigned bits = 0;; bits = bits == 0 ? 128 : 2 * bits) {
         const Corners corners = corners_of(trace, loop, bits);
         const RationalPoint mm = approximation(p, bits + 128);
         const LocalProblem& local = trace.local;
-        const Vec<Rational> q{Rational((mm[0] - local.origin[0]) * local.scale), Rational((mm[1] - local.origin[1]) * local.scale)};
+        const Vec<Rational> q{Rational((mm[0] - local.origin[0]) * local.scale),
+                              Rational((mm[1] - local.origin[1]) * local.scale)};
         if (const std::optional<int> n = Around(trace, loop, corners, q).number()) return *n;
     }
 }

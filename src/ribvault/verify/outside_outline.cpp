@@ -17,7 +17,8 @@ Rational cross(const RationalPoint& a, const RationalPoint& b, const RationalPoi
 /// A track in doubles: coordinates truncated once, so off by less than 2^-52 of their size.
 struct Approximate {
     double ax, ay, bx, by;
-    explicit Approximate(const PrintedTrack& t) : ax(t.a[0].get_d()), ay(t.a[1].get_d()), bx(t.b[0].get_d()), by(t.b[1].get_d()) {}
+    explicit Approximate(const PrintedTrack& t)
+        : ax(t.a[0].get_d()), ay(t.a[1].get_d()), bx(t.b[0].get_d()), by(t.b[1].get_d()) {}
     double size() const { return std::max({std::fabs(ax), std::fabs(ay), std::fabs(bx), std::fabs(by)}); }
 };
 
@@ -37,7 +38,9 @@ public:
         starts_.assign(static_cast<std::size_t>(rows_) + 1, 0);
         const auto enter = [&](const auto& put) {
             for (std::size_t k = 0; k < edges.size(); ++k)
-                for (int r = row(std::min(edges[k].ay, edges[k].by) - 2 * margin), end = row(std::max(edges[k].ay, edges[k].by) + 2 * margin); r <= end; ++r)
+                for (int r = row(std::min(edges[k].ay, edges[k].by) - 2 * margin),
+                         end = row(std::max(edges[k].ay, edges[k].by) + 2 * margin);
+                     r <= end; ++r)
                     put(static_cast<std::size_t>(r), static_cast<std::uint32_t>(k));
         };
         enter([&](std::size_t r, std::uint32_t) { ++starts_[r + 1]; });
@@ -96,7 +99,8 @@ private:
                 if (may_meet(t, doubles_[k], c)) add_cuts(track, *edges_[k], cuts);
             });
         if (cuts.empty()) {
-            const bool in = inside((t.ax + t.bx) / 2, (t.ay + t.by) / 2, [&] { return between(track, Rational(1, 2)); });
+            const bool in =
+                inside((t.ax + t.bx) / 2, (t.ay + t.by) / 2, [&] { return between(track, Rational(1, 2)); });
             if (!in) add(track, track.a, track.b, result);
             return;
         }
@@ -113,7 +117,8 @@ private:
         }
     }
 
-    void add(const PrintedTrack& track, const PrintedPoint& from, const PrintedPoint& to, std::vector<PrintedTrack>& result) const {
+    void add(const PrintedTrack& track, const PrintedPoint& from, const PrintedPoint& to,
+             std::vector<PrintedTrack>& result) const {
         PrintedTrack piece = track;
         piece.a = from, piece.b = to, piece.outline = false;
         result.push_back(std::move(piece));
@@ -138,18 +143,22 @@ private:
         return true;
     }
 
-    /// Sign of the turn a -> b -> p, 0 when doubles do not tell. Differences are off by 2^-50 c, so each product of two by
-    /// 2^-50 c times the sum of the factors, and a rounding of 2^-52 of itself: 2^-48 c (the four lengths) is more than all.
+    /// Sign of the turn a -> b -> p, 0 when doubles do not tell. Differences are off by 2^-50 c, so each product of two
+    /// by 2^-50 c times the sum of the factors, and a rounding of 2^-52 of itself: 2^-48 c (the four lengths) is more
+    /// than all.
     static int turn(double ax, double ay, double bx, double by, double px, double py, double c) {
         const double ux = bx - ax, uy = by - ay, vx = px - ax, vy = py - ay, d = ux * vy - uy * vx;
-        const double error = 0x1p-48 * c * (std::fabs(ux) + std::fabs(uy) + std::fabs(vx) + std::fabs(vy) + 0x1p-48 * c);
+        const double error =
+            0x1p-48 * c * (std::fabs(ux) + std::fabs(uy) + std::fabs(vx) + std::fabs(vy) + 0x1p-48 * c);
         return d > error ? 1 : d < -error ? -1 : 0;
     }
 
     static bool may_meet(const Approximate& s, const Approximate& e, double c) {
         const double margin = 0x1p-46 * c;
-        if (std::max(s.ax, s.bx) + margin < std::min(e.ax, e.bx) || std::min(s.ax, s.bx) > std::max(e.ax, e.bx) + margin ||
-            std::max(s.ay, s.by) + margin < std::min(e.ay, e.by) || std::min(s.ay, s.by) > std::max(e.ay, e.by) + margin)
+        if (std::max(s.ax, s.bx) + margin < std::min(e.ax, e.bx) ||
+            std::min(s.ax, s.bx) > std::max(e.ax, e.bx) + margin ||
+            std::max(s.ay, s.by) + margin < std::min(e.ay, e.by) ||
+            std::min(s.ay, s.by) > std::max(e.ay, e.by) + margin)
             return false;
         if (turn(s.ax, s.ay, s.bx, s.by, e.ax, e.ay, c) * turn(s.ax, s.ay, s.bx, s.by, e.bx, e.by, c) > 0) return false;
         return turn(e.ax, e.ay, e.bx, e.by, s.ax, s.ay, c) * turn(e.ax, e.ay, e.bx, e.by, s.bx, s.by, c) <= 0;
@@ -157,7 +166,8 @@ private:
 
     /// Where along the track (0 to 1) it meets the edge; both ends of a common piece.
     static void add_cuts(const PrintedTrack& track, const PrintedTrack& edge, std::vector<Rational>& cuts) {
-        const RationalPoint a = rational(track.a), b = rational(track.b), from = rational(edge.a), to = rational(edge.b);
+        const RationalPoint a = rational(track.a), b = rational(track.b), from = rational(edge.a),
+                            to = rational(edge.b);
         const Rational ux = b[0] - a[0], uy = b[1] - a[1];
         const Rational c = cross(from, to, a), d = cross(from, to, b);
         const auto add = [&](const Rational& t) {
@@ -173,8 +183,8 @@ private:
         }
     }
 
-    /// Whether a ray to +x crosses an odd number of edges. A vertex on the ray counts as above it. (x, y) is within 2^-51 c of the
-    /// point that `exact` gives, c being the largest coordinate.
+    /// Whether a ray to +x crosses an odd number of edges. A vertex on the ray counts as above it. (x, y) is within
+    /// 2^-51 c of the point that `exact` gives, c being the largest coordinate.
     template <class Exact>
     bool inside(double x, double y, const Exact& exact) const {
         const double c = std::max({largest_, std::fabs(x), std::fabs(y)}), margin = 0x1p-50 * c;
@@ -212,7 +222,9 @@ private:
 
 }  // namespace
 
-std::vector<PrintedTrack> extruded_outside(const PrintedLayer& upper, const PrintedLayer& lower) { return Outline(lower).outside(upper); }
+std::vector<PrintedTrack> extruded_outside(const PrintedLayer& upper, const PrintedLayer& lower) {
+    return Outline(lower).outside(upper);
+}
 
 std::vector<PrintedTrack> stretches_outside(const PrintedLayer& upper, const PrintedLayer& lower) {
     const Outline outline(lower);

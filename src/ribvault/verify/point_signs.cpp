@@ -4,7 +4,9 @@ namespace ribvault::verify {
 
 namespace {
 
-bool is_circle(const Curve& c, int centre, const Radius& radius) { return !c.line && c.a == centre && c.radius == radius; }
+bool is_circle(const Curve& c, int centre, const Radius& radius) {
+    return !c.line && c.a == centre && c.radius == radius;
+}
 bool is_line(const Curve& c, int a, int b, const Radius& radius) {
     return c.line && ((c.a == a && c.b == b) || (c.a == b && c.b == a)) && c.radius == radius;
 }

@@ -46,11 +46,13 @@ public:
     /// The same for the square of half side `half` about (x, y).
     void near(double x, double y, double half, std::vector<int>& found) const;
 
-    /// Whether `test` holds for an index of some, among them at least every track whose stadium, dilated by `reach`, contains (x, y).
+    /// Whether `test` holds for an index of some, among them at least every track whose stadium, dilated by `reach`,
+    /// contains (x, y).
     template <class Test>
     bool any_at(double x, double y, const Test& test) const {
         if (!tracks_ || tracks_->empty()) return false;
-        const std::size_t cell = static_cast<std::size_t>(row(y)) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column(x));
+        const std::size_t cell =
+            static_cast<std::size_t>(row(y)) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column(x));
         for (std::uint32_t k = starts_[cell]; k < starts_[cell + 1]; ++k)
             if (test(members_[k])) return true;
         return false;

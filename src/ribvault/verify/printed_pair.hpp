@@ -28,7 +28,8 @@ struct OpenPart {
     std::optional<CentreGap> gap;       ///< on the centre line
     std::optional<Uncovered> found;     ///< else: in the local problem of the part
     std::optional<PrintedTrack> piece;  ///< M of that problem when it is not all of the track: the part itself
-    std::shared_ptr<const LocalProblem> local = nullptr;  ///< that problem; alive as long as `found`, which points into it
+    /// That problem; alive as long as `found`, which points into it.
+    std::shared_ptr<const LocalProblem> local = nullptr;
 };
 
 /// The part of the stretch as a track of its own: its stadium holds all of the track's stadium beside the stretch, and

@@ -27,12 +27,13 @@ struct Uncovered {
     Leaving leaving;
 };
 
-/// Decides M \ K = {} exactly (docs/verifier.md). Nothing when it is empty. Precondition: M \ K lies inside the windows, which may
-/// overlap. Under upward rounding; adds to `stages`.
-std::optional<Uncovered> find_uncovered(const CoverProblem& problem, std::span<const Window> windows, StageCounts& stages);
+/// Decides M \ K = {} exactly (docs/verifier.md). Nothing when it is empty. Precondition: M \ K lies inside the
+/// windows, which may overlap. Under upward rounding; adds to `stages`.
+std::optional<Uncovered> find_uncovered(const CoverProblem& problem, std::span<const Window> windows,
+                                        StageCounts& stages);
 
-/// Certified enclosure of the area of M \ K, to 1 % or as far as about `max_cells` cells go, and a point that as far as doubles tell is in
-/// the largest part found to be uncovered. Precondition: as for find_uncovered.
+/// Certified enclosure of the area of M \ K, to 1 % or as far as about `max_cells` cells go, and a point that as far as
+/// doubles tell is in the largest part found to be uncovered. Precondition: as for find_uncovered.
 struct AreaEnclosure {
     double lo = 0, hi = 0;  ///< square lattice units
     double x = 0, y = 0;    ///< that point

@@ -44,14 +44,15 @@ int ArcFinder::side_of(const Solid& solid, const CurveUse* use, const CurvePoint
         // On a curve of the stadium: on its boundary where the curve is that, which is known away from the ends.
         const double along = ((p.x - t.ax) * t.dx + (p.y - t.ay) * t.dy) / t.length;
         const bool line = trace_.curves[static_cast<std::size_t>(use->curve)].line;
-        const bool beside = along > slack && along < t.length - slack, past = along < -slack || along > t.length + slack;
+        const bool beside = along > slack && along < t.length - slack,
+                   past = along < -slack || along > t.length + slack;
         if (line ? beside : past) return 0;
     }
     return compare_distance(p, solid.a, solid.b, solid.radius);
 }
 
-// Which of the two sides of the curve at p belong to the region, p being no vertex. Where p is on the boundary of a stadium that
-// does not have this curve, it is not in the closure of the region: else it would be a vertex.
+// Which of the two sides of the curve at p belong to the region, p being no vertex. Where p is on the boundary of a
+// stadium that does not have this curve, it is not in the closure of the region: else it would be a vertex.
 Beside ArcFinder::beside(int curve, const CurvePoint& p) {
     PreparedTrack at;
     at.ax = at.bx = p.x, at.ay = at.by = p.y;

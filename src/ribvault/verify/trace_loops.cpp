@@ -8,7 +8,8 @@ namespace ribvault::verify {
 
 namespace {
 
-/// An end of an arc seen from the vertex: the direction in which it leaves, along the curve's own direction or against it.
+/// An end of an arc seen from the vertex: the direction in which it leaves, along the curve's own direction or against
+/// it.
 struct Ray {
     int curve = 0;
     bool along = true;
@@ -30,7 +31,8 @@ public:
     }
 
 private:
-    // 0 just left of the base, 1 in the half turn from it, 2 opposite, 3 in the second half turn, 4 just right of the base.
+    // 0 just left of the base, 1 in the half turn from it, 2 opposite, 3 in the second half turn, 4 just right of the
+    // base.
     int sector(const Ray& base, const Ray& p) {
         const int c = product(base, p, true);
         if (c != 0) return c > 0 ? 1 : 3;
@@ -87,16 +89,19 @@ int next_arc(TraceProblem& trace, const std::vector<TraceArc>& arcs, int node, c
     Fan fan(trace, node);
     const Ray base = back_of(arcs[static_cast<std::size_t>(arriving)]);
     return *std::max_element(joint.out.begin(), joint.out.end(), [&](int i, int j) {
-        return fan.before(base, start_of(arcs[static_cast<std::size_t>(i)]), start_of(arcs[static_cast<std::size_t>(j)]));
+        return fan.before(base, start_of(arcs[static_cast<std::size_t>(i)]),
+                          start_of(arcs[static_cast<std::size_t>(j)]));
     });
 }
 
 // Merges what goes on along one curve through joints with nothing else.
-TraceLoop merged(const std::vector<TraceArc>& arcs, const std::vector<int>& cycle, const std::vector<char>& simple_start) {
+TraceLoop merged(const std::vector<TraceArc>& arcs, const std::vector<int>& cycle,
+                 const std::vector<char>& simple_start) {
     const auto goes_on = [&](std::size_t i) {  // arc i of the cycle is a continuation of the one before
         const TraceArc &a = arcs[static_cast<std::size_t>(cycle[(i + cycle.size() - 1) % cycle.size()])],
                        &b = arcs[static_cast<std::size_t>(cycle[i])];
-        return a.from >= 0 && simple_start[static_cast<std::size_t>(cycle[i])] && a.curve == b.curve && a.forward == b.forward;
+        return a.from >= 0 && simple_start[static_cast<std::size_t>(cycle[i])] && a.curve == b.curve &&
+               a.forward == b.forward;
     };
     std::size_t first = 0;
     while (first < cycle.size() && goes_on(first)) ++first;

@@ -17,12 +17,12 @@ struct TracePiece {
 };
 using TraceLoop = std::vector<TracePiece>;
 
-/// The loops that run along the boundary of one component of the region's interior each, the region on their left. Every arc is in
-/// one of them.
+/// The loops that run along the boundary of one component of the region's interior each, the region on their left.
+/// Every arc is in one of them.
 std::vector<TraceLoop> join_arcs(TraceProblem& trace, const std::vector<TraceArc>& arcs);
 
-/// Enclosure of the area to the left of the loops, a hole's being negative; square local units, 1e-9 of it wide or less.
-/// Precondition: it is not 0, as that of one loop, or of a component's loops, is not.
+/// Enclosure of the area to the left of the loops, a hole's being negative; square local units, 1e-9 of it wide or
+/// less. Precondition: it is not 0, as that of one loop, or of a component's loops, is not.
 std::array<Rational, 2> loops_area(TraceProblem& trace, std::span<const TraceLoop* const> loops);
 
 /// How often the loop runs round the point, which is not on it. Exact.

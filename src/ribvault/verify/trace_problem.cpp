@@ -46,7 +46,9 @@ public:
 
 private:
     int next() const { return static_cast<int>(trace_.curves.size()); }
-    Vec<Rational> point(int vertex) const { return exact_point<Rational>(trace_.local.vertices[static_cast<std::size_t>(vertex)]); }
+    Vec<Rational> point(int vertex) const {
+        return exact_point<Rational>(trace_.local.vertices[static_cast<std::size_t>(vertex)]);
+    }
     void enter(int solid, const Curve& curve) {
         trace_.curves.push_back(curve);
         trace_.owner.push_back(solid);
@@ -100,7 +102,8 @@ std::vector<int> distinct(const PrintedPair& pair, std::span<const int> tracks) 
 // The same of parts, as far as doubles tell.
 std::vector<PreparedTrack> distinct(std::vector<PreparedTrack> parts) {
     const auto key = [](const PreparedTrack& p) { return std::tuple{p.ax, p.ay, p.bx, p.by, p.half}; };
-    std::sort(parts.begin(), parts.end(), [&](const PreparedTrack& p, const PreparedTrack& q) { return key(p) < key(q); });
+    std::sort(parts.begin(), parts.end(),
+              [&](const PreparedTrack& p, const PreparedTrack& q) { return key(p) < key(q); });
     const auto same = [&](const PreparedTrack& p, const PreparedTrack& q) { return key(p) == key(q); };
     parts.erase(std::unique(parts.begin(), parts.end(), same), parts.end());
     return parts;
@@ -115,7 +118,8 @@ void TraceProblem::near(const PreparedTrack& t, double radius, std::vector<int>&
     for (const int k : scratch_) {  // both ascend
         site = std::lower_bound(site, local.sites.end(), k);
         if (site == local.sites.end()) break;
-        if (*site == k) found.push_back(static_cast<int>(above.size() + static_cast<std::size_t>(site - local.sites.begin())));
+        if (*site == k)
+            found.push_back(static_cast<int>(above.size() + static_cast<std::size_t>(site - local.sites.begin())));
     }
 }
 
@@ -149,7 +153,8 @@ void build_trace_problem(TraceProblem& trace, std::span<const int> tracks, std::
         lo_x = std::min(lo_x, std::min(p.ax, p.bx) - p.half), hi_x = std::max(hi_x, std::max(p.ax, p.bx) + p.half);
         lo_y = std::min(lo_y, std::min(p.ay, p.by) - p.half), hi_y = std::max(hi_y, std::max(p.ay, p.by) + p.half);
     }
-    const Square square{(lo_x + hi_x) / 2, (lo_y + hi_y) / 2, std::max(hi_x - lo_x, hi_y - lo_y) / 2 + 8 * trace.margin};
+    const Square square{(lo_x + hi_x) / 2, (lo_y + hi_y) / 2,
+                        std::max(hi_x - lo_x, hi_y - lo_y) / 2 + 8 * trace.margin};
     std::vector<int> which;
     pair.grid.near(square.x, square.y, 1.5 * square.half + 2 * window_slack(trace.margin), which);
     const Below below{pair.lower, pair.below, pair.radii, which, {}};

@@ -1,5 +1,5 @@
-// What the tracing of a region's boundary works on: stadiums, the curves they lie on, and where these meet. Heavy: include in
-// .cpp files only.
+// What the tracing of a region's boundary works on: stadiums, the curves they lie on, and where these meet. Heavy:
+// include in .cpp files only.
 #pragma once
 
 #include <span>
@@ -49,7 +49,7 @@ struct TraceProblem {
     std::vector<PreparedTrack> above;          ///< the stadiums of M, as solids[0...]
     TrackGrid above_grid;
     std::vector<Solid> solids;                 ///< those of M, then those of K
-    std::vector<Curve> curves;                 ///< lines to the right of a to b (side -1), so that the stadium is on the left
+    std::vector<Curve> curves;  ///< lines to the right of a to b (side -1), so that the stadium is on the left
     std::vector<int> owner;                    ///< per curve: one of the solids that use it
     std::vector<std::array<int, 2>> tangents;  ///< sorted: sides and the circles at their ends, which touch
     std::vector<TraceVertex> vertices;
@@ -66,8 +66,8 @@ private:
     mutable std::vector<int> scratch_;
 };
 
-/// Solids and curves around `parts` of the tracks `tracks` above. Equal stadiums are one solid, equal circles and equal lines one
-/// curve, decided exactly. Under upward rounding, as all that follows.
+/// Solids and curves around `parts` of the tracks `tracks` above. Equal stadiums are one solid, equal circles and equal
+/// lines one curve, decided exactly. Under upward rounding, as all that follows.
 void build_trace_problem(TraceProblem& trace, std::span<const int> tracks, std::vector<PreparedTrack> parts);
 
 /// Enters the vertices: at least all points of the closure of the region where two curves meet that have a piece of a

@@ -23,7 +23,11 @@ public:
         BoundaryLoop loop;
         for (const TracePiece& p : traced) {
             const Curve& c = trace_.curves[static_cast<std::size_t>(p.curve)];
-            loop.push_back({curve(p.curve), BoundaryPiece::nowhere, BoundaryPiece::nowhere, c.line ? 0 : p.forward ? 1 : -1, p.angle});
+            loop.push_back({curve(p.curve), BoundaryPiece::nowhere, BoundaryPiece::nowhere,
+                            c.line      ? 0
+                            : p.forward ? 1
+                                        : -1,
+                            p.angle});
         }
         for (std::size_t i = 0; i < traced.size(); ++i) {
             if (traced[i].from < 0) continue;
@@ -40,7 +44,8 @@ private:
         if (!fresh) return at->second;
         const Curve& c = trace_.curves[static_cast<std::size_t>(index)];
         const Solid& solid = trace_.solids[static_cast<std::size_t>(trace_.owner[static_cast<std::size_t>(index)])];
-        boundary.curves.push_back({c.line, solid.above, static_cast<std::size_t>(solid.track), solid.end(c.a), solid.end(c.b), solid.radius});
+        boundary.curves.push_back(
+            {c.line, solid.above, static_cast<std::size_t>(solid.track), solid.end(c.a), solid.end(c.b), solid.radius});
         return at->second;
     }
 
@@ -78,7 +83,8 @@ struct Found {
     bool outer() const { return area[0] > 0; }
 };
 
-// The outer loop in which each hole lies: of those that run round a point of the hole, the one that all others run round.
+// The outer loop in which each hole lies: of those that run round a point of the hole, the one that all others run
+// round.
 class Nesting {
 public:
     Nesting(TraceProblem& trace, const std::vector<TraceArc>& arcs, const std::vector<Found>& loops)
@@ -93,7 +99,8 @@ public:
         for (const std::size_t i : outer_)
             if (contains(i, hole)) around.push_back(i);
         for (const std::size_t i : around)
-            if (std::all_of(around.begin(), around.end(), [&](std::size_t j) { return i == j || contains(j, i); })) return i;
+            if (std::all_of(around.begin(), around.end(), [&](std::size_t j) { return i == j || contains(j, i); }))
+                return i;
         throw std::logic_error("a traced hole lies in no region");
     }
 

@@ -50,7 +50,8 @@ void Finder::look_at(const PreparedTrack& part) {
                 meet(uses_[i], uses_[j]);
 }
 
-// A point of the closure of the region is in the part or in another one, on both pieces, and in no stadium of K's interior.
+// A point of the closure of the region is in the part or in another one, on both pieces, and in no stadium of K's
+// interior.
 bool Finder::matters(const Located& v, const Near& p, const Near& q) const {
     const double scale = trace_.local.scale.get_d();
     const auto [x, y] = trace_.approximate_mm((v.x.inf() + v.x.sup()) / 2, (v.y.inf() + v.y.sup()) / 2);
@@ -71,7 +72,8 @@ void Finder::meet(const Near& p, const Near& q) {
     const int count = meeting_count(trace_, first, second);
     if (p.solid == q.solid && count != 1) return;  // a stadium's own curves are its boundary where they touch only
     for (int root = count == 2 ? -1 : 0; root <= 1 && count > 0; root += 2) {
-        TraceVertex v{first, second, root, located(trace_.local.problem, candidate_of(trace_, first, second, root)), -1, 0, {}};
+        TraceVertex v{first, second, root, located(trace_.local.problem, candidate_of(trace_, first, second, root)),
+                      -1,    0,      {}};
         if (matters(v.at, p, q)) trace_.vertices.push_back(std::move(v));
     }
 }

@@ -28,11 +28,12 @@ struct Unsupported {
     double witness_distance = 0;             ///< mm to the nearest material below, rounded down
 };
 
-/// Equation (2) for the print: every point of what is extruded on layer i + 1, inside the outline of layer i, has material
-/// extruded on layer i within ρ (verify/outside_outline.hpp).
+/// Equation (2) for the print: every point of what is extruded on layer i + 1, inside the outline of layer i, has
+/// material extruded on layer i within ρ (verify/outside_outline.hpp).
 struct PrintVerdict {
     bool supported = true;
-    std::array<double, 2> unsupported_mm{0, 0};  ///< enclosure of the length of centre lines that violate (1) inside the outline
+    std::array<double, 2> unsupported_mm{
+        0, 0};  ///< enclosure of the length of centre lines that violate (1) inside the outline
     std::array<double, 2> external_mm{0, 0};     ///< the same outside it
     std::array<double, 2> place{0, 0};           ///< near something unsupported, mm
     StageCounts stages;
@@ -42,7 +43,8 @@ struct PrintVerdict {
 struct LayerVerdict {
     int layer = 0;                           ///< the upper layer, i
     bool supported = false;                  ///< proved: BS_i minus external overhangs lies within ρ of BS_{i-1}
-    std::string malformed;                   ///< why (2) has no meaning here (a cavity not inside its slice), which support breaks the removal gap, or empty
+    std::string malformed;  ///< why (2) has no meaning here (a cavity not inside its slice), which support breaks the
+                            ///< removal gap, or empty
     std::optional<Unsupported> internal;     ///< refuted: what internal supports should have held up
     std::optional<Unsupported> external;     ///< farther than ρ from O_{i-1}: outside what internal supports can reach
     StageCounts stages;

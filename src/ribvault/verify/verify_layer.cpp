@@ -47,7 +47,8 @@ std::vector<Edge> add_segments(const std::vector<Segment>& segments, std::vector
 
 LayerEdges add_layer(const LayerGeometry& layer, std::vector<Vertex>& vertices, std::string& malformed) {
     LayerEdges edges;
-    for_each_boundary(*layer.outline, [&](const ExactPolygon& polygon) { add_polygon(polygon, vertices, edges.outline); });
+    for_each_boundary(*layer.outline,
+                      [&](const ExactPolygon& polygon) { add_polygon(polygon, vertices, edges.outline); });
     const CavityBoundary cavity = cavity_boundary(*layer.cavity);
     malformed = cavity.malformed;
     edges.cavity = add_segments(cavity.edges, vertices);
@@ -74,7 +75,8 @@ Window window_of(const CoverProblem& problem, const Stadium& piece) {
     return w;
 }
 
-/// Windows that cover the same, for less work: neighbours in the list as one where that costs little, about as high as wide.
+/// Windows that cover the same, for less work: neighbours in the list as one where that costs little, about as high as
+/// wide.
 std::vector<Window> gathered(const std::vector<Window>& windows, double rho) {
     const double rim = 5 * rho;  // what a window costs beside its area
     const auto cost = [rim](const Window& w) { return (w.hi_x - w.lo_x + rim) * (w.hi_y - w.lo_y + rim); };
@@ -93,17 +95,20 @@ std::vector<Window> gathered(const std::vector<Window>& windows, double rho) {
     }
     for (const Window& w : joined) {
         const double wide = w.hi_x - w.lo_x, high = w.hi_y - w.lo_y;
-        const auto parts = [rim](double side, double other) { return std::clamp(std::round(side / std::max(other, rim)), 1.0, 64.0); };
+        const auto parts = [rim](double side, double other) {
+            return std::clamp(std::round(side / std::max(other, rim)), 1.0, 64.0);
+        };
         const double columns = parts(wide, high), rows = parts(high, wide);
         for (double i = 0; i < columns; ++i)
             for (double j = 0; j < rows; ++j)
-                result.push_back({w.lo_x + i / columns * wide, w.lo_y + j / rows * high, w.lo_x + (i + 1) / columns * wide, w.lo_y + (j + 1) / rows * high});
+                result.push_back({w.lo_x + i / columns * wide, w.lo_y + j / rows * high,
+                                  w.lo_x + (i + 1) / columns * wide, w.lo_y + (j + 1) / rows * high});
     }
     return result;
 }
 
-/// Windows for M \ K. `moved`: what bounds M's region, or at least a region that agrees with it outside K; `fixed`: what bounds K's.
-/// Everything of M's region outside K has another winding number about one than about the other.
+/// Windows for M \ K. `moved`: what bounds M's region, or at least a region that agrees with it outside K; `fixed`:
+/// what bounds K's. Everything of M's region outside K has another winding number about one than about the other.
 std::vector<Window> windows_of(const CoverProblem& problem, const std::vector<Edge>& moved, double rho) {
     std::optional<std::vector<Window>> windows = windows_of_change(problem.vertices, moved, problem.region, rho);
     if (!windows) {
@@ -116,7 +121,8 @@ std::vector<Window> windows_of(const CoverProblem& problem, const std::vector<Ed
     return gathered(*windows, rho);
 }
 
-std::optional<Unsupported> decide(const CoverProblem& problem, const std::vector<Window>& windows, double rho, StageCounts& stages) {
+std::optional<Unsupported> decide(const CoverProblem& problem, const std::vector<Window>& windows, double rho,
+                                  StageCounts& stages) {
     const std::optional<Uncovered> found = find_uncovered(problem, windows, stages);
     if (!found) return std::nullopt;
     return describe_uncovered(problem, windows, *found, rho);
@@ -147,7 +153,8 @@ LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const Lay
         return verdict;
     }
 
-    // External: M = BS_{i+1}, K = (O_i)^{ρ↑}, with external supports united with the points within r + ρ of a centre line of S_i.
+    // External: M = BS_{i+1}, K = (O_i)^{ρ↑}, with external supports united with the points within r + ρ of a centre
+    // line of S_i.
     CoverProblem external;
     external.vertices = vertices;
     external.material = above.outline;
@@ -162,7 +169,8 @@ LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const Lay
     bool held_outside = !settings.outside() || !verdict.external;
     if (!held_outside && settings.reach_of_object() > settings.support_radius) {
         // Within the removal gap: K = (O_i)^{g + r ↑} and the tracks.
-        for (std::size_t k = 0; k < external.region.size(); ++k) external.sites[k].radius = static_cast<double>(settings.reach_of_object());
+        for (std::size_t k = 0; k < external.region.size(); ++k)
+            external.sites[k].radius = static_cast<double>(settings.reach_of_object());
         held_outside = !decide(external, outside, rho, verdict.stages);
     }
 

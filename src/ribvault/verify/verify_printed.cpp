@@ -37,7 +37,8 @@ struct Found {
     StageCounts stages;
 };
 
-/// Decides one track after the other. Of `verdict` only what is kept by track is written: several judges may decide different tracks at once.
+/// Decides one track after the other. Of `verdict` only what is kept by track is written: several judges may decide
+/// different tracks at once.
 class Judge {
 public:
     Judge(const PrintedPair& pair, const PrintedOptions& options, PrintedVerdict& verdict)
@@ -182,7 +183,9 @@ void Judge::judge(int index) {
     track_ = static_cast<std::size_t>(index);
     const PreparedTrack& t = pair_.above[track_];
     // A stadium below that contains the track's contains its middle.
-    const auto follows = [&](int k) { return excess(pair_, t, pair_.below[static_cast<std::size_t>(k)]) < -pair_.margin; };
+    const auto follows = [&](int k) {
+        return excess(pair_, t, pair_.below[static_cast<std::size_t>(k)]) < -pair_.margin;
+    };
     if (pair_.grid.any_at((t.ax + t.bx) / 2, (t.ay + t.by) / 2, follows)) {
         ++found.stages.interval;
         return;
@@ -203,7 +206,8 @@ void Judge::judge(int index) {
         return;
     }
     const Below below{pair_.lower, pair_.below, pair_.radii, near_, seen_};
-    const std::vector<CentreGap> centre = centre_gaps(pair_.upper[track_], t, below, pair_.margin, exact_ends(), found.stages);
+    const std::vector<CentreGap> centre =
+        centre_gaps(pair_.upper[track_], t, below, pair_.margin, exact_ends(), found.stages);
     if (!centre.empty()) found.centre_lines_supported = false;
     if (options_.lengths)
         for (const CentreGap& gap : centre) report_gap(gap);

@@ -35,8 +35,8 @@ struct UnsupportedRegion {
     bool witness_certified = true;    ///< false when only a place near the region could be given; none is known
 };
 
-/// A stretch of a track above beside which something of its stadium violates (2): all that does lies in the stadiums of these
-/// stretches.
+/// A stretch of a track above beside which something of its stadium violates (2): all that does lies in the stadiums of
+/// these stretches.
 struct OpenStretch {
     std::size_t track = 0;         ///< index into upper.tracks
     double from_mm = 0, to_mm = 0; ///< along it from a; may exceed its ends, whose round caps count

@@ -1,5 +1,5 @@
-// Stands before ribvault/verify/number.hpp when the verifier is compiled a second time: the same checks in plain doubles. What was an
-// interval with a certified enclosure is one rounded number here, and its sign is believed.
+// Stands before ribvault/verify/number.hpp when the verifier is compiled a second time: the same checks in plain
+// doubles. What was an interval with a certified enclosure is one rounded number here, and its sign is believed.
 #pragma once
 
 #include <CGAL/Interval_nt.h>
