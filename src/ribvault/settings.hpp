@@ -52,7 +52,7 @@ struct Settings {
     /// on it.
     Unit support_gap = 0;
     int support_gap_layers = 0;   ///< so many layers between an external support and what it holds up are left empty
-    bool bed_only = false;  ///< external supports stand on the bed, nowhere on the object (pipeline/ways_to_bed.hpp)
+    bool bed_only = false;  ///< external supports stand on the bed, nowhere on the object (pipeline/outside_room.hpp)
     /// Track that is left of a tree that stands free, on every layer down to what it stands on.
     Unit pillar_length = 400000;
     bool pillars = false;  ///< trees stand free where that takes less track down to the bed, in cavities too
