@@ -1,3 +1,4 @@
+#include <charconv>
 #include <cstdio>
 #include <optional>
 
@@ -20,6 +21,14 @@ struct Written {
     bool no_straighten = false, no_branch_bonus = false, quiet = false;
     std::string rotate, up = "z";
 };
+
+std::uint64_t parse_seed(const std::string& text) {
+    std::uint64_t seed = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    if (error != std::errc() || end != text.data() + text.size())
+        throw Error(ErrorKind::usage, "--seed: '" + text + "' is no whole number from 0 to 18446744073709551615");
+    return seed;
+}
 
 template <class Target>
 void add_length(CLI::App* command, const std::string& name, Target& target, const std::string& help) {
@@ -118,7 +127,10 @@ void add_geometry(CLI::App* command, Written& w) {
     supports->add_flag("--no-branch-bonus", w.no_branch_bonus, "leave out the heuristic of equation (4)");
     add_length(supports, "--branch-bonus", w.branch_bonus, "its bonus (default: twice the nozzle, 4r)");
     supports->add_option("--valence-limit", s.valence_limit, "valence from which a junction has no bonus (default 4)");
-    supports->add_option("--seed", s.seed, "of the ties (default 1)");
+    supports
+        ->add_option_function<std::string>(
+            "--seed", [&s](const std::string& text) { s.seed = parse_seed(text); }, "of the ties (default 1)")
+        ->type_name("UINT");
     add_length(supports, "--pitch", w.pitch, "spacing of the points to support (default: a quarter of the nozzle)");
     add_length(supports, "--slack", s.slack, "what the generator keeps clear of the limit (default 0.001)");
 }
@@ -216,12 +228,20 @@ std::function<int()> add_generate(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("generate", "Hollow a mesh, grow ribbed supports, prove every layer, write G-code");
     command->add_option("model", written->model, "STL, OBJ, OFF, PLY or 3MF")->required();
-    command->add_option("-o,--output", written->gcode, "G-code to write")->type_name("FILE");
-    command->add_option("--report", written->report, "JSON report to write")->type_name("FILE");
-    command->add_option("--svg", written->svg, "folder for one picture a layer")->type_name("DIR");
-    command->add_option("--mesh", written->mesh, "supports as solids, .stl or .3mf")->type_name("FILE");
-    command->add_option("--layers", written->layers, "the geometry of every layer, as JSON lines")->type_name("FILE");
-    command->add_option("--html", written->html, "page to look at the whole run, in one file")->type_name("FILE");
+    command->add_option("-o,--output", written->gcode, "G-code to write")->check(output_name())->type_name("FILE");
+    command->add_option("--report", written->report, "JSON report to write")->check(output_name())->type_name("FILE");
+    command->add_option("--svg", written->svg, "folder for one picture a layer")
+        ->check(output_name())
+        ->type_name("DIR");
+    command->add_option("--mesh", written->mesh, "supports as solids, .stl or .3mf")
+        ->check(output_name())
+        ->type_name("FILE");
+    command->add_option("--layers", written->layers, "the geometry of every layer, as JSON lines")
+        ->check(output_name())
+        ->type_name("FILE");
+    command->add_option("--html", written->html, "page to look at the whole run, in one file")
+        ->check(output_name())
+        ->type_name("FILE");
     command->add_option("--threads", written->job.threads, "0: all processors")->check(CLI::Range(0, 1024));
     command->add_flag("--quiet", written->quiet, "print errors only");
     add_profiles(command, written->job, written->first_layer_height);

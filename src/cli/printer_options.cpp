@@ -1,6 +1,7 @@
 #include "cli/printer_options.hpp"
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -12,10 +13,12 @@ namespace ribvault::cli {
 namespace {
 
 std::string text_of(const std::string& file) {
+    if (std::filesystem::is_directory(file)) throw Error(ErrorKind::unreadable, file + ": is a folder");
     std::ifstream in(file, std::ios::binary);
     std::ostringstream text;
     text << in.rdbuf();
     if (!in) throw Error(ErrorKind::unreadable, file + ": cannot be read");
+    if (text.str().find('\0') != std::string::npos) throw Error(ErrorKind::unreadable, file + ": is no text file");
     return text.str();
 }
 

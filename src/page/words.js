@@ -40,7 +40,8 @@ function runFigures(run) {
 function runVerdict(run) {
   if (run.kind === "gcode") return run.facts.verdict;
   const v = run.header.verdict, bad = new Set([...v.layers_refuted, ...v.print.layers_refuted]).size;
-  return run.good ? `Proved: every point of all ${run.count} layers has material within ρ below, as geometry and as printed.`
+  return run.good ? `Proved: every point of all ${run.count} layers has material within ρ below, as geometry and as printed` +
+      (v.external_overhangs.length > 0 ? `, but for what overhangs outside on ${many(v.external_overhangs.length, "layer")}.` : ".")
     : `Not proved on ${bad} of ${run.count} layers.`;
 }
 
@@ -57,7 +58,7 @@ function runWords(run) {
 /** The verdict on layer k in two or three words. */
 function layerVerdict(run, k) {
   if (run.refuted(k)) return run.kind === "gcode" ? "hangs" : "not proved";
-  return k === 0 ? "on the bed" : run.kind === "gcode" ? "supported" : "proved";
+  return k === 0 ? "on the bed" : run.kind === "gcode" ? "supported" : run.hangs(k) ? "proved inside, overhangs outside" : "proved";
 }
 
 function heading(run, k) { return `layer ${k}, z ${fixed(run.bottom(k), 2)} to ${fixed(run.top(k), 2)} mm: ${layerVerdict(run, k)}`; }

@@ -111,6 +111,51 @@ class Generate(unittest.TestCase):
         self.refuse(5, "--scale", CUBE, "--scale", "0.001")
         self.refuse(5, "no layer", CUBE, "--scale", "0.1", "--layer-height", "8")
 
+    def test_nothing_to_print(self):
+        plate = self.folder / "plate.off"  # thinner than any track
+        corners = [(x, y, z) for x in (0, 0.01) for y in (0, 10) for z in (0, 10)]
+        faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        plate.write_text("OFF\n8 6 0\n" + "".join("%g %g %g\n" % c for c in corners) + "".join("4 %d %d %d %d\n" % f for f in faces))
+        done = self.run_program(plate, "-o", "a.gcode")
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertIn("nothing would be printed", done.stderr)
+        self.assertEqual(self.files(), {"plate.off"})
+
+    def test_no_output_takes_the_place_of_the_model_or_of_another_output(self):
+        model = self.folder / "model.stl"
+        model.write_bytes(CUBE.read_bytes())
+        (self.folder / "link.stl").symlink_to(model)
+        for name in ("model.stl", "./model.stl", "link.stl"):
+            for option in ("-o", "--report", "--mesh", "--layers", "--html"):
+                done = self.run_program(model, option, name)
+                self.assertEqual(done.returncode, 2, option + " " + name)
+                self.assertIn("is the input", done.stderr)
+        self.assertEqual(model.read_bytes(), CUBE.read_bytes())
+        for option, name, why in (("--html", "./a.gcode", "is the file of --output too"), ("--html", "", "name of the output is empty")):
+            done = self.run_program(CUBE, "-o", "a.gcode", option, name)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(why, done.stderr)
+        self.assertEqual(self.files(), {"model.stl", "link.stl"})
+        self.assertEqual(self.run_program(CUBE, "-o", "/dev/null", "--report", "/dev/null").returncode, 0)
+
+    def test_pictures_are_of_one_run_and_a_folder_without_any_goes_again(self):
+        (self.folder / "mine").mkdir()
+        (self.folder / "mine/layer_of_paint.svg").write_text("the user's")
+        for height, layers in (("20", 100), ("10", 50)):
+            done = self.run_program(CUBE, "--height", height, "--svg", "mine")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual({p.name for p in (self.folder / "mine").iterdir()},
+                             {"layer_of_paint.svg"} | {f"layer_{k:05d}.svg" for k in range(layers)})
+        plate = self.folder / "far.off"
+        plate.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 1\n3 0 1 2\n")
+        self.assertNotEqual(self.run_program(plate, "--svg", "new/pictures").returncode, 0)
+        self.assertFalse((self.folder / "new").exists())
+
+    def test_numbers_that_no_printer_has(self):
+        for option, value in (("--filament-diameter", "1e-7"), ("--print-speed", "1e12"), ("--retraction", "1e6"),
+                              ("--temperature", "99999"), ("--prime-surplus", "nan"), ("--seed", "-1")):
+            self.refuse(2, value if option == "--seed" else "must lie between", CUBE, option, value)
+
     def test_unwritable_output(self):
         done = self.run_program(CUBE, "-o", "no/such/folder/a.gcode")
         self.assertEqual(done.returncode, 6, done.stderr)

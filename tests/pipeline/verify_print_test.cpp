@@ -167,6 +167,9 @@ TEST_CASE("features are chosen by name or kind", "[verify-print]") {
     CHECK_FALSE(verify_print(job).supported);
     job.ignored_features = {"perimeter"};
     CHECK(verify_print(job).supported);
+    job.features = {"perimeter"};
+    CHECK_THAT(usage_error(job), Contains("leave nothing to judge"));
+    job.features.clear();
     job.ignored_features = {"bridges"};
     CHECK_THAT(usage_error(job), Contains("'bridges'") && Contains("'Perimeter', 'Support material'"));
 }

@@ -14,6 +14,8 @@
 #include "ribvault/mesh/read_mesh.hpp"
 #include "ribvault/output_file.hpp"
 #include "ribvault/pipeline/check_bed.hpp"
+#include "ribvault/pipeline/check_outputs.hpp"
+#include "ribvault/pipeline/picture_folder.hpp"
 #include "ribvault/pipeline/choose_supports.hpp"
 #include "ribvault/pipeline/layer_spool.hpp"
 #include "ribvault/pipeline/outside_room.hpp"
@@ -65,6 +67,8 @@ public:
         job_.tracks.check(job_.settings.nozzle);
         check_printer(job_.printer);
         thumbnail_sizes(job_.printer.thumbnails);
+        check_outputs({job_.model}, {{"--output", job_.gcode}, {"--report", job_.report}, {"--mesh", job_.mesh},
+                                     {"--layers", job_.layers}, {"--html", job_.html}});
         report_.version = RIBVAULT_VERSION;
         report_.input_path = job_.model.string();
         report_.tracks = job_.tracks;
@@ -148,17 +152,13 @@ private:
         if (job_.report) json_.emplace(*job_.report);
         shapes_.open(job_.layers, job_.html);
         if (job_.mesh) {
-            walls_.emplace(*job_.mesh);
             as_3mf_ = job_.mesh->extension() == ".3mf";
+            if (!as_3mf_ && job_.mesh->extension() != ".stl")
+                throw Error(ErrorKind::usage, "--mesh " + job_.mesh->string() + ": the name must end in .stl or .3mf");
+            walls_.emplace(*job_.mesh);
             if (!as_3mf_) walls_->write(stl_header(0));
         }
-        if (job_.svg) {
-            std::error_code error;
-            std::filesystem::create_directories(*job_.svg, error);
-            if (error)
-                throw Error(ErrorKind::cannot_write, job_.svg->string() + ": cannot make this folder (" +
-                                                         error.message() + "); choose another with --svg");
-        }
+        if (job_.svg) folder_.emplace(*job_.svg);
         total_ = layers;
         job_.progress(0, total_);
     }
@@ -233,9 +233,7 @@ private:
 
         from = Time::now();
         if (job_.svg) {
-            char name[32];
-            std::snprintf(name, sizeof name, "layer_%05d.svg", layer.layer);
-            output->picture.emplace(*job_.svg / name, false);
+            output->picture.emplace(folder_->picture(layer.layer));
             output->picture->write(layer_svg(*layer.slice, layer.cavity->region, swept.forest, swept.unsupported, s));
             output->picture->finish();
         }
@@ -340,6 +338,11 @@ private:
         if (report_.totals.shell_volume_mm3 <= 0)
             throw Error(ErrorKind::bad_geometry,
                         job_.model.string() + ": the mesh encloses no volume; is it a surface without thickness?");
+        if (report_.totals.extruded_mm3 <= 0)
+            throw Error(ErrorKind::does_not_fit,
+                        job_.model.string() + ": nothing of it has room for a track, so nothing would be printed (" +
+                            std::to_string(report_.totals.thin_places) +
+                            " places are too narrow); scale it up or use a smaller nozzle");
         const auto from = Time::now();
         if (gcode_) {
             const PrintFacts facts{total_, report_.totals.print_seconds, report_.totals.filament_mm, box_,
@@ -371,7 +374,7 @@ private:
         if (job_.stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
         if (gcode_) gcode_->commit();
         if (walls_) walls_->commit();
-        for (AtomicFile& svg : svgs_) svg.commit();
+        if (folder_) folder_->commit(svgs_);
         shapes_.commit();
         if (json_) json_->commit();
     }
@@ -382,6 +385,7 @@ private:
     Chosen chosen_;
     RunReport report_;
     std::string kept_walls_, end_of_layers_;
+    std::optional<PictureFolder> folder_;
     std::deque<std::shared_ptr<LayerOutput>> waiting_;  ///< from the top
     Box box_;
     std::optional<AtomicFile> gcode_, json_, walls_;

@@ -4,6 +4,7 @@
 
 #include "ribvault/error.hpp"
 #include "ribvault/output_file.hpp"
+#include "ribvault/pipeline/check_outputs.hpp"
 #include "ribvault/report/layers_file.hpp"
 #include "ribvault/report/print_page.hpp"
 #include "ribvault/report/run_page.hpp"
@@ -42,6 +43,7 @@ void append_gcode(const PageJob& job, const std::filesystem::path& file, RunPage
 void make_page(const PageJob& job) {
     if (job.runs.empty() || job.runs.size() > 2)
         throw Error(ErrorKind::usage, "a page shows one run or two, not " + std::to_string(job.runs.size()));
+    check_outputs(job.runs, {{"--output", job.page}});
     AtomicFile file(job.page);
     RunPage page([&file](std::string_view text) { file.write(text); });
     for (const std::filesystem::path& run : job.runs)

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <set>
 
 #include "ribvault/error.hpp"
 #include "ribvault/output_file.hpp"
+#include "ribvault/pipeline/check_outputs.hpp"
 #include "ribvault/pipeline/judge_layer.hpp"
+#include "ribvault/pipeline/picture_folder.hpp"
 #include "ribvault/pipeline/thread_limit.hpp"
 #include "ribvault/print/printed_layers.hpp"
 #include "ribvault/print/read_gcode.hpp"
@@ -93,14 +96,10 @@ public:
 
 private:
     void open_outputs() {
+        check_outputs({job_.gcode}, {{"--report", job_.report}, {"--html", job_.html}});
         if (job_.report) json_.emplace(*job_.report);
         if (job_.html) page_.emplace(*job_.html);
-        if (!job_.svg) return;
-        std::error_code error;
-        std::filesystem::create_directories(*job_.svg, error);
-        if (error)
-            throw Error(ErrorKind::cannot_write, job_.svg->string() + ": cannot make this folder (" + error.message() +
-                                                     "); choose another with --svg");
+        if (job_.svg) folder_.emplace(*job_.svg);
     }
 
     void read() {
@@ -178,6 +177,8 @@ private:
         if (!job_.features.empty()) judged_ = named(print_, job_.features, "--features");
         const std::vector<char> ignored = named(print_, job_.ignored_features, "--ignore-features");
         for (std::size_t k = 0; k < judged_.size(); ++k) judged_[k] = judged_[k] != 0 && ignored[k] == 0 ? 1 : 0;
+        if (std::none_of(judged_.begin(), judged_.end(), [](char chosen) { return chosen != 0; }))
+            refuse("--features and --ignore-features leave nothing to judge");
     }
 
     void judge() {
@@ -222,15 +223,11 @@ private:
         std::vector<AtomicFile> pictures;
         if (job_.svg) {
             for (const std::size_t k : worst_layers(report_, static_cast<std::size_t>(std::max(0, job_.pictures)))) {
-                char name[48];
                 const HangingLayer& layer = report_.layers[k];
                 const bool parts = (k > 0 && report_.layers[k - 1].layer == layer.layer) ||
                                    (k + 1 < report_.layers.size() && report_.layers[k + 1].layer == layer.layer);
-                if (parts)
-                    std::snprintf(name, sizeof name, "layer_%05d_%.0fum.svg", layer.layer, layer.height_mm * 1000);
-                else
-                    std::snprintf(name, sizeof name, "layer_%05d.svg", layer.layer);
-                pictures.emplace_back(*job_.svg / name, false);
+                const std::string part = std::to_string(std::lround(layer.height_mm * 1000)) + "um";
+                pictures.push_back(folder_->picture(layer.layer, parts ? part : ""));
                 pictures.back().write(printed_layer_svg(print_, report_, k));
             }
         }
@@ -243,13 +240,14 @@ private:
         if (page_) page_->finish();
         if (json_) json_->finish();
         for (AtomicFile& picture : pictures) picture.finish();
-        for (AtomicFile& picture : pictures) picture.commit();
+        if (folder_) folder_->commit(pictures);
         if (page_) page_->commit();
         if (json_) json_->commit();
     }
 
     const VerifyJob& job_;
     const Time::time_point start_;
+    std::optional<PictureFolder> folder_;
     GcodePrint print_;
     PrintReport report_;
     Rational radius_, object_reach_ = 0;

@@ -1,6 +1,8 @@
 #include "ribvault/print/gcode_header.hpp"
 
 #include <cmath>
+#include <cstdio>
+#include <utility>
 
 #include "ribvault/error.hpp"
 #include "ribvault/print/gcode_text.hpp"
@@ -100,40 +102,37 @@ std::string fill_placeholders(const std::string& text, const std::string& key, c
 }
 
 void check_printer(const PrinterSettings& printer) {
-    const auto need = [](bool good, const char* name, double value, const char* rule) {
-        if (!good || !std::isfinite(value))
-            throw Error(ErrorKind::usage, std::string(name) + " is " + std::to_string(value) + "; it must be " + rule);
+    const auto need = [](const char* name, double value, double least, double most) {
+        if (value >= least && value <= most) return;
+        char text[160];
+        std::snprintf(text, sizeof text, "%s is %g; it must lie between %g and %g", name, value, least, most);
+        throw Error(ErrorKind::usage, text);
     };
-    need(printer.filament_diameter > 0, "filament diameter (mm)", printer.filament_diameter, "positive");
-    need(printer.nozzle_temperature >= 0, "nozzle temperature (°C)", printer.nozzle_temperature, "0 or more");
-    need(printer.bed_temperature >= 0, "bed temperature (°C)", printer.bed_temperature, "0 (not heated) or more");
-    need(printer.support_extruder >= 0 && printer.support_extruder < 64, "tool of external supports",
-         printer.support_extruder, "between 0 and 63");
-    need(printer.support_temperature >= 0, "temperature of external supports (°C)", printer.support_temperature,
-         "0 (as the nozzle's) or more");
-    need(printer.fan_percent >= 0 && printer.fan_percent <= 100, "fan (percent)", printer.fan_percent,
-         "between 0 and 100");
-    need(printer.print_speed > 0, "print speed (mm/s)", printer.print_speed, "positive");
-    need(printer.support_speed > 0, "support speed (mm/s)", printer.support_speed, "positive");
-    need(printer.first_layer_speed > 0, "first layer speed (mm/s)", printer.first_layer_speed, "positive");
-    need(printer.travel_speed > 0, "travel speed (mm/s)", printer.travel_speed, "positive");
-    need(printer.retraction >= 0, "retraction (mm)", printer.retraction, "0 (none) or more");
-    need(printer.retraction_speed > 0, "retraction speed (mm/s)", printer.retraction_speed, "positive");
-    need(printer.retract_over >= 0, "open air that retracts (mm)", printer.retract_over, "0 or more");
-    need(printer.longest_detour >= 0, "longest detour (mm)", printer.longest_detour, "0 or more");
-    need(printer.prime_surplus >= 0, "prime surplus", printer.prime_surplus, "0 or more (a share of the retraction)");
-    need(printer.surplus_clearance >= 0, "surplus clearance (mm)", printer.surplus_clearance, "0 or more");
+    need("filament diameter (mm)", printer.filament_diameter, 0.1, 20);
+    need("nozzle temperature (°C)", printer.nozzle_temperature, 0, 1000);
+    need("bed temperature (°C)", printer.bed_temperature, 0, 500);
+    need("tool of external supports", printer.support_extruder, 0, 63);
+    need("temperature of external supports (°C)", printer.support_temperature, 0, 1000);
+    need("fan (percent)", printer.fan_percent, 0, 100);
+    for (const auto& [name, speed] : {std::pair("print speed (mm/s)", printer.print_speed),
+                                      {"support speed (mm/s)", printer.support_speed},
+                                      {"first layer speed (mm/s)", printer.first_layer_speed},
+                                      {"travel speed (mm/s)", printer.travel_speed},
+                                      {"retraction speed (mm/s)", printer.retraction_speed}})
+        need(name, speed, 0.1, 10000);
+    need("retraction (mm)", printer.retraction, 0, 100);
+    need("open air that retracts (mm)", printer.retract_over, 0, 1e6);
+    need("longest detour (mm)", printer.longest_detour, 0, 1e6);
+    need("prime surplus (share of the retraction)", printer.prime_surplus, 0, 10);
+    need("surplus clearance (mm)", printer.surplus_clearance, 0, 1e6);
     for (std::size_t a = 0; a < 4; ++a) {
-        need(printer.limits.speed[a] > 0, "highest speed of an axis (mm/s)", printer.limits.speed[a], "positive");
-        need(printer.limits.acceleration[a] > 0, "acceleration of an axis (mm/s2)", printer.limits.acceleration[a],
-             "positive");
-        need(printer.limits.jerk[a] > 0, "jerk of an axis (mm/s)", printer.limits.jerk[a], "positive");
+        need("highest speed of an axis (mm/s)", printer.limits.speed[a], 0.01, 1e5);
+        need("acceleration of an axis (mm/s2)", printer.limits.acceleration[a], 0.1, 1e7);
+        need("jerk of an axis (mm/s)", printer.limits.jerk[a], 1e-3, 1e5);
     }
-    need(printer.limits.print_acceleration > 0, "acceleration (mm/s2)", printer.limits.print_acceleration, "positive");
-    need(printer.limits.retract_acceleration > 0, "retract acceleration (mm/s2)", printer.limits.retract_acceleration,
-         "positive");
-    need(printer.limits.travel_acceleration > 0, "travel acceleration (mm/s2)", printer.limits.travel_acceleration,
-         "positive");
+    need("acceleration (mm/s2)", printer.limits.print_acceleration, 0.1, 1e7);
+    need("retract acceleration (mm/s2)", printer.limits.retract_acceleration, 0.1, 1e7);
+    need("travel acceleration (mm/s2)", printer.limits.travel_acceleration, 0.1, 1e7);
     fill_placeholders(printer.file_header, "file_header", {}, printer, {});
     fill_placeholders(printer.start_gcode, "start_gcode", {}, printer, {});
     fill_placeholders(printer.end_gcode, "end_gcode", {}, printer, {});

@@ -1,0 +1,21 @@
+// What the user has is not lost: no output takes the place of an input.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ribvault {
+
+/// An output with the option that names it.
+struct NamedOutput {
+    std::string option;
+    std::optional<std::filesystem::path> file;
+};
+
+/// Throws Error (usage) when an output is the file of an input or of another output, by whatever names. What exists and
+/// is no regular file (a device, a pipe) may be several outputs.
+void check_outputs(const std::vector<std::filesystem::path>& inputs, const std::vector<NamedOutput>& outputs);
+
+}  // namespace ribvault
