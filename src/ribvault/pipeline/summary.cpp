@@ -93,7 +93,7 @@ std::string summary(const RunReport& r, const Job& job) {
     if (r.settings.outside())
         print(text, ", external supports %.1f (%.0f mm)", r.totals.external_support_volume_mm3,
               r.totals.external_support_printed_length_mm);
-    print(text, "; %.2f m of filament\n", r.totals.filament_mm / 1000);
+    print(text, "; %.2f m of filament, %.1f mm3\n", r.totals.filament_mm / 1000, r.totals.extruded_mm3);
     if (r.settings.length_bound)
         print(
             text,
