@@ -17,7 +17,7 @@ void pack(std::string& to, const std::vector<T>& values) {
     static_assert(std::is_trivially_copyable_v<T>);
     const std::uint64_t n = values.size();
     to.append(reinterpret_cast<const char*>(&n), sizeof n);
-    to.append(reinterpret_cast<const char*>(values.data()), n * sizeof(T));
+    if (n > 0) to.append(reinterpret_cast<const char*>(values.data()), n * sizeof(T));  // else data() may be null
 }
 inline void pack(std::string& to, const Region& region) {
     const std::uint64_t n = region.size();
@@ -31,7 +31,7 @@ void unpack(std::string_view& from, std::vector<T>& values) {
     std::uint64_t n = 0;
     std::memcpy(&n, from.data(), sizeof n);
     values.resize(n);
-    std::memcpy(values.data(), from.data() + sizeof n, n * sizeof(T));
+    if (n > 0) std::memcpy(values.data(), from.data() + sizeof n, n * sizeof(T));
     from.remove_prefix(sizeof n + n * sizeof(T));
 }
 inline void unpack(std::string_view& from, Region& region) {
