@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -84,9 +85,14 @@ void describe_verdict(std::string& text, const RunReport& r) {
 
 std::string summary(const RunReport& r, const Job& job) {
     std::string text;
-    print(text, "%s: %zu triangles, %.2f x %.2f x %.2f mm, %.1f mm3, %zu component%s, %zu layers\n",
-          r.input_path.c_str(), r.input.triangles, r.input.size_mm[0], r.input.size_mm[1], r.input.size_mm[2],
-          r.input.volume_mm3, r.input.components, r.input.components == 1 ? "" : "s", r.layers.size());
+    print(text, "%s: %zu triangles, %.2f x %.2f x %.2f mm, ", r.input_path.c_str(), r.input.triangles,
+          r.input.size_mm[0], r.input.size_mm[1], r.input.size_mm[2]);
+    if (r.input.closed())
+        print(text, "%.1f mm3, ", std::abs(r.input.volume_mm3));
+    else
+        text += "not closed, ";
+    print(text, "%zu component%s, %zu layers\n", r.input.components, r.input.components == 1 ? "" : "s",
+          r.layers.size());
     describe_verdict(text, r);
     print(text, "material  %.1f mm3: shell and covers %.1f, supports %.1f (%.0f mm of track)", r.totals.material_mm3,
           r.totals.shell_volume_mm3, r.totals.support_volume_mm3, r.totals.support_printed_length_mm);
