@@ -15,10 +15,10 @@
 #include "ribvault/output_file.hpp"
 #include "ribvault/pipeline/check_bed.hpp"
 #include "ribvault/pipeline/check_outputs.hpp"
-#include "ribvault/pipeline/picture_folder.hpp"
 #include "ribvault/pipeline/choose_supports.hpp"
 #include "ribvault/pipeline/layer_spool.hpp"
 #include "ribvault/pipeline/outside_room.hpp"
+#include "ribvault/pipeline/picture_folder.hpp"
 #include "ribvault/pipeline/prove_layer.hpp"
 #include "ribvault/pipeline/shape_outputs.hpp"
 #include "ribvault/pipeline/sweep_layers.hpp"
@@ -152,8 +152,9 @@ private:
         if (job_.report) json_.emplace(*job_.report);
         shapes_.open(job_.layers, job_.html);
         if (job_.mesh) {
-            as_3mf_ = job_.mesh->extension() == ".3mf";
-            if (!as_3mf_ && job_.mesh->extension() != ".stl")
+            const std::string format = job_.mesh->extension().string();
+            as_3mf_ = format == ".3mf" || format == ".3MF";
+            if (!as_3mf_ && format != ".stl" && format != ".STL")
                 throw Error(ErrorKind::usage, "--mesh " + job_.mesh->string() + ": the name must end in .stl or .3mf");
             walls_.emplace(*job_.mesh);
             if (!as_3mf_) walls_->write(stl_header(0));

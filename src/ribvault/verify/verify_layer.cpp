@@ -171,7 +171,9 @@ LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const Lay
         // Within the removal gap: K = (O_i)^{g + r ↑} and the tracks.
         for (std::size_t k = 0; k < external.region.size(); ++k)
             external.sites[k].radius = static_cast<double>(settings.reach_of_object());
-        held_outside = !decide(external, outside, rho, verdict.stages);
+        const std::optional<Unsupported> beyond_gap = decide(external, outside, rho, verdict.stages);
+        held_outside = !beyond_gap;
+        if (beyond_gap) verdict.external = beyond_gap;
     }
 
     // Internal: K = the points within ρ of the outside of C_i, and within r + ρ of a centre line of S_i.

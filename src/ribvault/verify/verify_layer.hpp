@@ -24,8 +24,9 @@ struct LayerGeometry {
 /// `external` and does not make `supported` false, unless settings.outside(): then tracks hold it up as well as what is
 /// inside, and what they do not is not supported. With a removal gap g "supported" says that every point outside O_i is
 /// within r + ρ of a track or within settings.reach_of_object() = max(ρ, g + r) of O_i: no track may stand nearer.
-/// `external` is all the same what is farther than ρ. Everything else that is not held up is `internal`. A cavity whose
-/// contours cross, or that is not in the interior of its slice, gives `malformed` and not supported.
+/// `external` is all the same what is farther than ρ, unless something is farther than that reach: then it is what is.
+/// Everything else that is not held up is `internal`. A cavity whose contours cross, or that is not in the interior of
+/// its slice, gives `malformed` and not supported.
 ///
 /// Precondition: the pointers are valid, ρ > 0, nozzle > 0 and even. Throws Error (usage) otherwise.
 /// May be called from several threads at once on shared input.
