@@ -26,21 +26,21 @@ std::vector<Triangle> table_with_hook() {
     return box({0, 0, 0}, {3, 3, 8}) + box({-4, -4, 8}, {7, 7, 9}) + box({5, 5, 4}, {6, 6, 8}) +
            box({-3, 5, 4}, {6, 6, 5});
 }
-/// A column of n sides with radius 2 up to z = 3 that widens to 10 at z = 5.5, twisted by an angle on the way.
-std::vector<Triangle> funnel(int n, double twist) {
-    const auto corner = [&](int ring, int k) {
-        static constexpr double radii[] = {2, 2, 10, 10}, heights[] = {0, 3, 5.5, 6.5};
+/// A column of n sides that widens over its middle part, twisted by an angle on the way.
+std::vector<Triangle> funnel(int n, double twist, std::array<double, 4> radii = {2, 2, 10, 10},
+                             std::array<double, 4> heights = {0, 3, 5.5, 6.5}) {
+    const auto corner = [&](std::size_t ring, int k) {
         const double angle = 2 * M_PI * (k % n) / n + (ring > 1 ? twist : 0);
         return Corner{radii[ring] * std::cos(angle), radii[ring] * std::sin(angle), heights[ring]};
     };
     std::vector<Triangle> triangles;
     for (int k = 0; k < n; ++k) {
-        for (int ring = 0; ring < 3; ++ring) {
+        for (std::size_t ring = 0; ring < 3; ++ring) {
             triangles.push_back({corner(ring, k), corner(ring, k + 1), corner(ring + 1, k + 1)});
             triangles.push_back({corner(ring, k), corner(ring + 1, k + 1), corner(ring + 1, k)});
         }
         triangles.push_back({Corner{0, 0, 0}, corner(0, k + 1), corner(0, k)});
-        triangles.push_back({Corner{0, 0, 6.5}, corner(3, k), corner(3, k + 1)});
+        triangles.push_back({Corner{0, 0, heights[3]}, corner(3, k), corner(3, k + 1)});
     }
     return triangles;
 }
@@ -319,6 +319,18 @@ TEST_CASE(
             CHECK(report.totals.patches < 40);  // hundreds where corners get their own
             CHECK(report.verdict.layers_with_patches_in_gap.empty());
         }
+}
+
+TEST_CASE(
+    "a support under a gap holds up the rim at a sharp corner, though it cannot come within rho of the centre line") {
+    for (const auto& [sides, gap] : {std::pair(3, 3), {4, 1}, {5, 1}, {5, 3}}) {
+        Settings settings = with(Support::external, 0);
+        settings.support_gap_layers = gap;
+        INFO(sides << " sides, " << gap << " layers");
+        const RunReport report = run(funnel(sides, 0, {1.5, 1.5, 4.5, 4.5}, {0, 1, 3.5, 4.3}), settings);
+        CHECK(report.verdict.proved);
+        CHECK(report.verdict.print_proved);
+    }
 }
 
 TEST_CASE(
