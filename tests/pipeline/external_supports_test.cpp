@@ -194,6 +194,24 @@ std::vector<Triangle> column_on_foot(double foot) {
 
 }  // namespace
 
+TEST_CASE(
+    "what is refuted across a removal gap is named by a place farther from the object than the gap and half a track") {
+    const Settings settings = with(Support::external, 30000);
+    const Swept swept(column_on_foot(0.5), settings);
+    const LayerMaterial &upper = swept.layers[40].material, &lower = swept.layers[39].material;
+    CHECK(prove_layer(upper, lower, settings).supported);
+    LayerMaterial bare = lower;
+    bare.tracks = bare.external = std::make_shared<const std::vector<Segment>>();
+    const LayerVerdict verdict = prove_layer(upper, bare, settings);
+    CHECK_FALSE(verdict.supported);
+    REQUIRE(verdict.external);
+    // The column is 2 mm wide and stands in the middle of the bed.
+    const auto beyond = [](double x) { return std::max(std::abs(x - 125) - 1, 0.0); };
+    CHECK(std::hypot(beyond(verdict.external->witness[0]), beyond(verdict.external->witness[1])) > 0.5);
+    const double reached = (2 * 1 + 2 * 0.5) * (2 * 1 + 2 * 0.5) - (4 - M_PI) * 0.25;
+    CHECK(verdict.external->area_hi == Approx(64 - reached).epsilon(0.02));
+}
+
 TEST_CASE("supports on the bed alone stand on no part of the object, and slant past what is in their way") {
     for (const Unit gap : {0, 30000}) {
         Settings settings = with(Support::external, gap);

@@ -13,7 +13,6 @@ bool is_one_file(const fs::path& a, const fs::path& b) {
     std::error_code error;
     const fs::file_status there = fs::status(a, error);
     if (fs::exists(there) && !fs::is_regular_file(there)) return false;
-    if (fs::equivalent(a, b, error) && !error) return true;
     const fs::path whole_a = fs::weakly_canonical(fs::absolute(a, error), error);
     const fs::path whole_b = fs::weakly_canonical(fs::absolute(b, error), error);
     return !whole_a.empty() && whole_a == whole_b;

@@ -14,8 +14,9 @@ struct NamedOutput {
     std::optional<std::filesystem::path> file;
 };
 
-/// Throws Error (usage) when an output is the file of an input or of another output, by whatever names. What exists and
-/// is no regular file (a device, a pipe) may be several outputs.
+/// Throws Error (usage) when an output is the file of an input or of another output, through symbolic links as well.
+/// (A second hard link is another file: outputs take a name's place, they do not write into what is there.) What exists
+/// and is no regular file (a device, a pipe) may be several outputs.
 void check_outputs(const std::vector<std::filesystem::path>& inputs, const std::vector<NamedOutput>& outputs);
 
 }  // namespace ribvault
