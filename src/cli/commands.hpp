@@ -10,10 +10,12 @@ std::function<int()> add_generate(CLI::App& app);
 std::function<int()> add_verify(CLI::App& app);
 std::function<int()> add_page(CLI::App& app);
 
-/// Refuses an empty name, which a script writes whose variable is not set.
-inline CLI::Validator output_name() {
-    return CLI::Validator(
+/// An option that names an output. An empty name, which a script writes whose variable is not set, is refused.
+inline CLI::Option* add_output(CLI::App* command, const std::string& option, std::string& target,
+                               const std::string& help, const std::string& type = "FILE") {
+    const CLI::Validator named(
         [](const std::string& name) { return std::string(name.empty() ? "the name of the output is empty" : ""); }, "");
+    return command->add_option(option, target, help)->check(named)->type_name(type);
 }
 
 }  // namespace ribvault::cli

@@ -228,20 +228,12 @@ std::function<int()> add_generate(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("generate", "Hollow a mesh, grow ribbed supports, prove every layer, write G-code");
     command->add_option("model", written->model, "STL, OBJ, OFF, PLY or 3MF")->required();
-    command->add_option("-o,--output", written->gcode, "G-code to write")->check(output_name())->type_name("FILE");
-    command->add_option("--report", written->report, "JSON report to write")->check(output_name())->type_name("FILE");
-    command->add_option("--svg", written->svg, "folder for one picture a layer")
-        ->check(output_name())
-        ->type_name("DIR");
-    command->add_option("--mesh", written->mesh, "supports as solids, .stl or .3mf")
-        ->check(output_name())
-        ->type_name("FILE");
-    command->add_option("--layers", written->layers, "the geometry of every layer, as JSON lines")
-        ->check(output_name())
-        ->type_name("FILE");
-    command->add_option("--html", written->html, "page to look at the whole run, in one file")
-        ->check(output_name())
-        ->type_name("FILE");
+    add_output(command, "-o,--output", written->gcode, "G-code to write");
+    add_output(command, "--report", written->report, "JSON report to write");
+    add_output(command, "--svg", written->svg, "folder for one picture a layer", "DIR");
+    add_output(command, "--mesh", written->mesh, "supports as solids, .stl or .3mf");
+    add_output(command, "--layers", written->layers, "the geometry of every layer, as JSON lines");
+    add_output(command, "--html", written->html, "page to look at the whole run, in one file");
     command->add_option("--threads", written->job.threads, "0: all processors")->check(CLI::Range(0, 1024));
     command->add_flag("--quiet", written->quiet, "print errors only");
     add_profiles(command, written->job, written->first_layer_height);

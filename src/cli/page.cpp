@@ -46,10 +46,7 @@ std::function<int()> add_page(CLI::App& app) {
                      "layers files of `generate --layers`, or G-code of any slicer, judged as by `verify`")
         ->required()
         ->expected(1, 2);
-    command->add_option("-o,--output", written->page, "page to write")
-        ->check(output_name())
-        ->required()
-        ->type_name("FILE");
+    add_output(command, "-o,--output", written->page, "page to write")->required();
     add_rules(command, written->rules);
     command->add_option("--threads", written->rules.threads, "0: all processors")->check(CLI::Range(0, 1024));
     command->add_flag("--quiet", written->quiet, "print errors only");

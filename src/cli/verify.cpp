@@ -49,20 +49,15 @@ std::function<int()> add_verify(CLI::App& app) {
         ->required();
     add_rules(command, w.job);
     const auto output = command->add_option_group("Output");
-    const auto report =
-        output->add_option("--report", w.report, "JSON report to write")->check(output_name())->type_name("FILE");
+    const auto report = add_output(output, "--report", w.report, "JSON report to write");
     output
         ->add_flag("--boundaries", w.job.boundaries,
                    "in the report, the exact boundary of every unsupported region, as lines and arcs")
         ->needs(report);
-    output->add_option("--svg", w.svg, "folder for pictures of the worst layers")
-        ->check(output_name())
-        ->type_name("DIR");
+    add_output(output, "--svg", w.svg, "folder for pictures of the worst layers", "DIR");
     output->add_option("--pictures", w.job.pictures, "how many of them at most (default 12)")
         ->check(CLI::Range(0, 100000));
-    output->add_option("--html", w.html, "page to look at every layer, in one file")
-        ->check(output_name())
-        ->type_name("FILE");
+    add_output(output, "--html", w.html, "page to look at every layer, in one file");
     output->add_option("--threads", w.job.threads, "0: all processors")->check(CLI::Range(0, 1024));
     output->add_flag("--quiet", w.quiet, "print errors only");
     return [written] { return run(*written); };

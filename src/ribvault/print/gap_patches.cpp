@@ -28,9 +28,8 @@ GapPatches::GapPatches(const Cavity& beside, const Region* walls_below_gap, cons
       patches_(patches),
       settings_(settings),
       walls_(*beside.walls),
-      air_(beside.region, edges_off_frame(beside.region)) {
-    if (walls_below_gap) below_gap_.emplace(*walls_below_gap);
-}
+      air_(beside.region, edges_off_frame(beside.region)),
+      walls_below_gap_(walls_below_gap) {}
 
 bool GapPatches::may_stand(const Segment& s) const {
     const auto too_near = [&](const Patch& patch) {
@@ -170,28 +169,7 @@ bool GapPatches::add_support(const Segment& hanging) {
     return true;
 }
 
-/// As it counts for what hangs: the object's is wider by what it holds up farther than ρ.
-std::vector<Lane> GapPatches::material_near(const Segment& stretch) const {
-    const Unit more = 2 * (settings_.reach_of_object() - settings_.support_radius);
-    Box box;
-    box.add(stretch.a), box.add(stretch.b);
-    box.grow(2 * settings_.nozzle + 2 * settings_.support_radius + more);
-    std::vector<Lane> lanes;
-    const auto add = [&](const Segment& centre, Unit width, TrackKind kind) {
-        lanes.push_back({centre, kind == TrackKind::external_support ? width : width + more});
-    };
-    tracks_.segments().visit(box, [&](std::uint32_t k) {
-        const PlanTracks::Place place = tracks_.place(k);
-        const ToolPath& path = plan_.tracks[place.track].paths[place.path];
-        add(tracks_.segments().segments()[k], path.width, path.kind);
-    });
-    for (const Patch& patch : patches_) add(patch.segment, settings_.nozzle, patch.kind);
-    return lanes;
-}
-
-bool GapPatches::add_under_rim(const HangingStretch& hanging, const std::vector<Lane>& more) {
-    std::vector<Lane> material = material_near(hanging.track.centre);
-    material.insert(material.end(), more.begin(), more.end());
+bool GapPatches::add_under_rim(const HangingStretch& hanging, const std::vector<Lane>& material) {
     // One place after the other, each for all that it reaches.
     const Unit reach = settings_.nozzle / 2 + settings_.support_radius - sampling_room;
     std::vector<Point> open = hanging_points(hanging, material, settings_.support_radius);
@@ -207,6 +185,7 @@ bool GapPatches::add_under_rim(const HangingStretch& hanging, const std::vector<
 }
 
 void GapPatches::add_to_object(const Segment& hanging) {
+    if (walls_below_gap_ && !below_gap_) below_gap_.emplace(*walls_below_gap_);
     // In pieces: part of a stretch may hang beyond the object's reach.
     const auto pieces = static_cast<std::size_t>(length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
     for (std::size_t k = 0; k < pieces; ++k) {

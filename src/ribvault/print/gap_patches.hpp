@@ -33,8 +33,8 @@ public:
     bool add(const Segment& hanging, bool again);
 
     /// Supports where they may stand and hold up what hangs, its rim included, though they cannot hold up the whole
-    /// stretch. `more`: what holds it up beside this layer's tracks and patches.
-    bool add_under_rim(const HangingStretch& hanging, const std::vector<Lane>& more);
+    /// stretch. `material`: what is there and may hold it up, as wide as it counts.
+    bool add_under_rim(const HangingStretch& hanging, const std::vector<Lane>& material);
 
     /// With a gap of layers, under what hangs over the object: the object's, where that is within reach of the slice's
     /// edge. Not where the edge is printed and only a rounded corner lets something hang that supports farther down can
@@ -71,14 +71,14 @@ private:
     std::optional<Point> place_for_wall(Point p, Unit reach) const;
     bool add_object(const Segment& hanging, Unit reach, bool at_edge = false);
     bool add_support(const Segment& hanging);
-    std::vector<Lane> material_near(const Segment& stretch) const;
 
     const LayerPlan& plan_;
     const PlanTracks& tracks_;
     std::vector<Patch>& patches_;
     const Settings& settings_;
     Place walls_, air_;  ///< where supports may stand; what lies outside the slice, its edges the slice's
-    std::optional<Place> below_gap_;
+    const Region* walls_below_gap_;
+    std::optional<Place> below_gap_;  ///< of it, once it is asked for
 };
 
 }  // namespace ribvault

@@ -230,21 +230,24 @@ private:
         return nearest;
     }
 
-    /// The tracks and patches that come near a stretch.
-    std::vector<Lane> material_near(const Segment& stretch) const {
-        const Unit reach = 2 * settings_.nozzle + 2 * settings_.support_radius;
+    /// The tracks and patches that come near a stretch; the object's are `wider` by what it holds up farther than ρ.
+    std::vector<Lane> material_near(const Segment& stretch, Unit wider = 0) const {
+        const Unit reach = 2 * settings_.nozzle + 2 * settings_.support_radius + wider;
         Box box;
-        for (const Point p : {stretch.a, stretch.b})
-            box.add({p.x - reach, p.y - reach}), box.add({p.x + reach, p.y + reach});
+        box.add(stretch.a), box.add(stretch.b);
+        box.grow(reach);
         std::vector<Lane> lanes;
+        const auto add = [&](const Segment& centre, Unit width, TrackKind kind) {
+            lanes.push_back({centre, kind == TrackKind::external_support ? width : width + wider});
+        };
         tracks_->segments().visit(box, [&](std::uint32_t k) {
             const PlanTracks::Place place = tracks_->place(k);
-            lanes.push_back(
-                {tracks_->segments().segments()[k], without_patches_.tracks[place.track].paths[place.path].width});
+            const ToolPath& path = without_patches_.tracks[place.track].paths[place.path];
+            add(tracks_->segments().segments()[k], path.width, path.kind);
         });
         for (const Patch& patch : patches_)
             if (near(stretch, patch.segment, static_cast<double>(reach)))
-                lanes.push_back({patch.segment, settings_.nozzle});
+                add(patch.segment, settings_.nozzle, patch.kind);
         return lanes;
     }
 
@@ -257,10 +260,11 @@ private:
     bool patch_at_gap(const Hanging& hanging, bool again) {
         const bool added = gap_patches_->add(hanging.place(), again);
         if (added && !again) return true;
-        std::vector<Lane> more;
+        std::vector<Lane> material =
+            material_near(hanging.place(), 2 * (settings_.reach_of_object() - settings_.support_radius));
         if (hanging.over_gap)
-            for (const PrintedTrack& track : over_gap_->object) more.push_back(lane_of(track));
-        return gap_patches_->add_under_rim(hanging.hanging(), more) || added;
+            for (const PrintedTrack& track : over_gap_->object) material.push_back(lane_of(track));
+        return gap_patches_->add_under_rim(hanging.hanging(), material) || added;
     }
 
     void add_patches(const std::vector<Hanging>& open, int round) {

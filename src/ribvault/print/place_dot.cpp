@@ -52,10 +52,8 @@ std::vector<std::vector<Vec>> sections_of(const HangingStretch& stretch) {
     std::vector<std::vector<Vec>> sections(static_cast<std::size_t>((to - from) / along) + 2);
     for (std::size_t k = 0; k < sections.size(); ++k) {
         const double s = from + (to - from) * static_cast<double>(k) / static_cast<double>(sections.size() - 1);
-        const double beyond = s < 0   ? -s
-                              : s > l ? s - l
-                                      : 0,
-                     reach = std::sqrt(std::max(0.0, half * half - beyond * beyond));
+        const double beyond = std::max({0.0, -s, s - l});
+        const double reach = std::sqrt(std::max(0.0, half * half - beyond * beyond));
         const int steps = static_cast<int>(2 * reach / across) + 2;
         for (int j = 0; j < steps; ++j)
             sections[k].push_back(a + s * ahead + (-reach + 2 * reach * j / (steps - 1)) * aside);
