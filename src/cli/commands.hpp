@@ -2,7 +2,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ribvault/exact/rational.hpp"
 
 namespace ribvault::cli {
 
@@ -16,6 +22,34 @@ inline CLI::Option* add_output(CLI::App* command, const std::string& option, std
     const CLI::Validator named(
         [](const std::string& name) { return std::string(name.empty() ? "the name of the output is empty" : ""); }, "");
     return command->add_option(option, target, help)->check(named)->type_name(type);
+}
+
+/// An option for a length in mm, taken exactly as written.
+template <class Target>
+CLI::Option* add_length(CLI::App* command, const std::string& option, Target& target, const std::string& help) {
+    return command
+        ->add_option_function<std::string>(
+            option, [&target, option](const std::string& text) { target = parse_length(text, option); }, help)
+        ->type_name("MM");
+}
+
+/// An option that is one of a few names.
+template <class Target>
+CLI::Option* add_choice(CLI::App* command, const std::string& option, Target& target,
+                        const std::vector<std::pair<std::string, Target>>& choices, const std::string& help) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : choices) names.push_back(name);
+    return command
+        ->add_option_function<std::string>(
+            option,
+            [&target, choices](const std::string& text) {
+                target = std::find_if(choices.begin(), choices.end(), [&](const auto& choice) {
+                             return choice.first == text;
+                         })->second;
+            },
+            help)
+        ->check(CLI::IsMember(names))
+        ->type_name("NAME");
 }
 
 }  // namespace ribvault::cli

@@ -16,8 +16,11 @@ namespace {
 struct Written {
     Job job;
     std::string model, gcode, report, svg, mesh, layers, html;
-    std::optional<Unit> first_layer_height, support_radius, erosion_step, straighten_step, branch_bonus, pitch;
+    std::optional<Unit> first_layer_height, support_radius, erosion_step, straighten_step, branch_bonus, pitch,
+        pillar_length;
     std::optional<Rational> overlap;
+    std::string strategy = "paper", narrow_bonus;
+    bool no_shrink = false, no_trim = false, no_doubling = false;
     bool no_straighten = false, no_branch_bonus = false, quiet = false;
     std::string rotate, up = "z";
 };
@@ -30,18 +33,25 @@ std::uint64_t parse_seed(const std::string& text) {
     return seed;
 }
 
-template <class Target>
-void add_length(CLI::App* command, const std::string& name, Target& target, const std::string& help) {
-    command->add_option_function<std::string>(
-        name, [&target, name](const std::string& text) { target = parse_length(text, name); }, help)->type_name("MM");
-}
-
-void choose_strategy(const std::string& name, Settings& s) {
-    const bool thrifty = name == "thrifty";
-    s.propagation = thrifty ? Propagation::shrink : Propagation::erode_straighten;
-    s.order = thrifty ? Order::doubling : Order::distance;
-    s.trim = thrifty;
-    s.narrow_bonus = s.choose_bonus = thrifty;
+void choose_strategy(const Written& w, Settings& s) {
+    const bool thrifty = w.strategy == "thrifty";
+    const auto needs_thrifty = [&](bool given, const char* option) {
+        if (given && !thrifty)
+            throw Error(ErrorKind::usage,
+                        std::string(option) + " takes something out of --strategy thrifty; give both");
+    };
+    needs_thrifty(w.no_shrink, "--no-shrink");
+    needs_thrifty(w.no_trim, "--no-trim");
+    needs_thrifty(w.no_doubling, "--no-doubling");
+    const bool shrink = thrifty && !w.no_shrink;
+    if (shrink && (w.no_straighten || w.straighten_step))
+        throw Error(ErrorKind::usage, std::string(w.no_straighten ? "--no-straighten" : "--straighten-step") +
+                                          ": --strategy thrifty does not straighten; give --no-shrink as well");
+    s.propagation = shrink ? Propagation::shrink : Propagation::erode_straighten;
+    s.order = thrifty && !w.no_doubling ? Order::doubling : Order::distance;
+    s.trim = thrifty && !w.no_trim;
+    const std::string bonus = !w.narrow_bonus.empty() ? w.narrow_bonus : thrifty ? "chosen" : "whole";
+    s.choose_bonus = bonus == "chosen", s.narrow_bonus = bonus != "whole";
 }
 
 void add_geometry(CLI::App* command, Written& w) {
@@ -57,22 +67,17 @@ void add_geometry(CLI::App* command, Written& w) {
     group->add_option("--bottom-layers", s.bottom_layers, "solid layers over every floor (default 1)");
     add_length(group, "--max-gap", s.max_gap, "close open contours over gaps up to this (default 0.05)");
     const auto outside = command->add_option_group("External supports (Section 6)");
-    outside
-        ->add_option_function<std::string>(
-            "--support",
-            [&s](const std::string& name) {
-                s.support = name == "external" ? Support::external : name == "both" ? Support::both : Support::internal;
-            },
-            "internal: hollow, supports in the cavities; external: solid, supports outside; both (default internal)")
-        ->check(CLI::IsMember({"internal", "external", "both"}))
-        ->type_name("NAME");
+    add_choice(
+        outside, "--support", s.support,
+        {{"internal", Support::internal}, {"external", Support::external}, {"both", Support::both}},
+        "internal: hollow, supports in the cavities; external: solid, supports outside; both (default internal)");
     add_length(outside, "--support-gap", s.support_gap,
                "keep external supports this far off the object, in plane (default 0)");
     outside->add_option("--support-gap-layers", s.support_gap_layers,
                         "leave so many layers empty between them and what they hold up (default 0)");
     outside->add_flag("--bed-only", s.bed_only, "they stand on the bed, nowhere on the object");
-    add_length(outside, "--pillar-length", s.pillar_length,
-               "track on every layer of a tree that stands free (default 4)");
+    add_length(outside, "--pillar-length", w.pillar_length,
+               "track on every layer of a tree that stands free (default: ten times the nozzle)");
     const auto supports = command->add_option_group("Supports (Sections 4.1 to 4.3)");
     const auto radius = supports->add_option_function<std::string>(
         "--support-radius", [&w](const std::string& t) { w.support_radius = parse_length(t, "--support-radius"); },
@@ -83,49 +88,42 @@ void add_geometry(CLI::App* command, Written& w) {
             "share of a track that must rest on the layer below; rho = (1 - R) d (default 0.5)")
         ->type_name("R")
         ->excludes(radius);
-    supports->add_option_function<std::string>(
-        "--strategy", [&s](const std::string& name) { choose_strategy(name, s); },
-        "paper: Sections 4.1 to 4.3; thrifty: less material under the same proof (default paper)")
-        ->check(CLI::IsMember({"paper", "thrifty"}))->type_name("NAME");
     supports
-        ->add_option_function<std::string>(
-            "--gaps",
-            [&s](const std::string& name) {
-                s.gaps = name == "paper" ? Gaps::paper : name == "none" ? Gaps::none : Gaps::proved;
-            },
-            "at junctions (Section 4.4): proved: where the print is supported with them; paper: all; none (default "
-            "proved)")
-        ->check(CLI::IsMember({"proved", "paper", "none"}))
+        ->add_option("--strategy", w.strategy,
+                     "paper: Sections 4.1 to 4.3; thrifty: less material under the same proof (default paper)")
+        ->check(CLI::IsMember({"paper", "thrifty"}))
         ->type_name("NAME");
-    supports->add_flag_function(
-        "--no-shrink", [&s](std::int64_t) { s.propagation = Propagation::erode_straighten; },
-        "thrifty without its descent of length");
-    supports->add_flag_function(
-        "--no-trim", [&s](std::int64_t) { s.trim = false; }, "thrifty without trimming new walls");
+    add_choice(supports, "--gaps", s.gaps,
+               {{"proved", Gaps::proved}, {"paper", Gaps::paper}, {"none", Gaps::none}},
+               "at junctions (Section 4.4): proved: where the print is supported with them; paper: all; none (default "
+               "proved)");
+    supports->add_flag("--no-shrink", w.no_shrink, "thrifty without its descent of length");
+    supports->add_flag("--no-trim", w.no_trim, "thrifty without trimming new walls");
     supports
-        ->add_option_function<std::string>(
-            "--narrow-bonus",
-            [&s](const std::string& name) { s.choose_bonus = name == "chosen", s.narrow_bonus = name != "whole"; },
-            "equation (4)'s bonus in narrow places: half, whole, or chosen: what takes less (default whole, thrifty: "
-            "chosen)")
+        ->add_option("--narrow-bonus", w.narrow_bonus,
+                     "equation (4)'s bonus in narrow places: half, whole, or chosen: what takes less (default whole, "
+                     "thrifty: chosen)")
         ->check(CLI::IsMember({"half", "whole", "chosen"}))
         ->type_name("NAME");
     supports->add_option("--tries", s.tries, "seeds to try; the one that takes the least is used (default 1)");
-    supports->add_flag_function(
-        "--no-doubling", [&s](std::int64_t) { s.order = Order::distance; }, "thrifty with the paper's order of points");
+    supports->add_flag("--no-doubling", w.no_doubling, "thrifty with the paper's order of points");
     supports->add_flag("--length-bound", s.length_bound, "report how short any supports could be at least");
     add_length(supports, "--erosion-step", w.erosion_step, "what a free tip loses per layer (default: rho)");
     supports->add_flag("--no-straighten", w.no_straighten, "leave out the straightening operator");
-    supports->add_option("--wall-lines", s.wall_lines, "tracks side by side in long or tall walls (default 1)");
+    const auto lines =
+        supports->add_option("--wall-lines", s.wall_lines, "tracks side by side in long or tall walls (default 1)");
     add_length(supports, "--wall-lines-longer", s.wall_lines_longer,
-               "what is long, from the root to the farthest tip (default 10)");
-    add_length(supports, "--wall-lines-taller", s.wall_lines_taller, "what is tall (default 10)");
+               "what is long, from the root to the farthest tip (default 10)")
+        ->needs(lines);
+    add_length(supports, "--wall-lines-taller", s.wall_lines_taller, "what is tall (default 10)")->needs(lines);
     supports->add_flag("--pillars", s.pillars,
                        "trees stand free where that takes less track down to the bed (Section 5.4)");
     add_length(supports, "--brace", s.brace, "trees that reach farther than this get a second root (default: none do)");
     add_length(supports, "--straighten-step", w.straighten_step, "how far a vertex moves per layer (default: rho)");
-    supports->add_flag("--no-branch-bonus", w.no_branch_bonus, "leave out the heuristic of equation (4)");
-    add_length(supports, "--branch-bonus", w.branch_bonus, "its bonus (default: twice the nozzle, 4r)");
+    const auto no_bonus =
+        supports->add_flag("--no-branch-bonus", w.no_branch_bonus, "leave out the heuristic of equation (4)");
+    add_length(supports, "--branch-bonus", w.branch_bonus, "its bonus (default: twice the nozzle, 4r)")
+        ->excludes(no_bonus);
     supports->add_option("--valence-limit", s.valence_limit, "valence from which a junction has no bonus (default 4)");
     supports
         ->add_option_function<std::string>(
@@ -171,6 +169,7 @@ void set_rotation(Written& w) {
 /// Defaults that depend on other settings.
 void complete(Written& w) {
     Settings& s = w.job.settings;
+    choose_strategy(w, s);
     s.first_layer_height = w.first_layer_height.value_or(s.layer_height);
     s.support_radius = w.support_radius.value_or(s.nozzle / 2);
     if (w.overlap) {
@@ -181,10 +180,14 @@ void complete(Written& w) {
             throw Error(ErrorKind::usage,
                         "--overlap: (1 - R) times the nozzle does not lie on the 10 nm lattice; use fewer decimals");
         s.support_radius = radius.get_num().get_si();
+        if (s.support_radius < units_per_mm / 100)
+            throw Error(ErrorKind::usage, "--overlap leaves rho = " + std::to_string(to_mm(s.support_radius)) +
+                                              " mm; at least 0.01 mm must be left of (1 - R) times the nozzle");
     }
     s.erosion_step = w.erosion_step.value_or(s.support_radius);
     s.straighten_step = w.straighten_step.value_or(s.support_radius);
     s.branch_bonus_length = w.branch_bonus.value_or(2 * s.nozzle);
+    s.pillar_length = w.pillar_length.value_or(10 * s.nozzle);
     s.sampling_pitch = w.pitch.value_or(s.nozzle / 4);
     s.straighten = !w.no_straighten;
     s.branch_bonus = !w.no_branch_bonus;

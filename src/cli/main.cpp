@@ -5,6 +5,21 @@
 #include "cli/interrupt.hpp"
 #include "ribvault/error.hpp"
 
+namespace {
+
+/// What the parser refuses, said as every other error is.
+std::string refusal(const CLI::App& app, const CLI::Error& error, const std::string& first_word) {
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    std::string what = error.what(), command = "ribvault";
+    if (chosen.empty() && (first_word.empty() || first_word.front() != '-'))
+        what = (first_word.empty() ? std::string("no command") : "there is no command '" + first_word + "'") +
+               "; there are generate, verify and page";
+    if (!chosen.empty()) command += " " + chosen.front()->get_name();
+    return "ribvault: " + what + "; see " + command + " --help\n";
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
     using namespace ribvault;
     CLI::App app{
@@ -14,6 +29,9 @@ int main(int argc, char** argv) {
         "4 input is not a solid, 5 does not fit the bed, 6 cannot write, 130 interrupted."};
     app.set_version_flag("--version", std::string("ribvault ") + RIBVAULT_VERSION);
     app.require_subcommand(1);
+    app.failure_message([&](const CLI::App* parser, const CLI::Error& error) {
+        return refusal(*parser, error, argc > 1 ? argv[1] : "");
+    });
     std::map<const CLI::App*, std::function<int()>> run;
     const auto generate = cli::add_generate(app), verify = cli::add_verify(app), page = cli::add_page(app);
     run[app.get_subcommand("generate")] = generate;

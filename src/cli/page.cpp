@@ -45,7 +45,8 @@ std::function<int()> add_page(CLI::App& app) {
         ->add_option("run", written->runs,
                      "layers files of `generate --layers`, or G-code of any slicer, judged as by `verify`")
         ->required()
-        ->expected(1, 2);
+        ->expected(1, 2)
+        ->type_name("FILE [FILE]");
     add_output(command, "-o,--output", written->page, "page to write")->required();
     add_rules(command, written->rules);
     command->add_option("--threads", written->rules.threads, "0: all processors")->check(CLI::Range(0, 1024));

@@ -33,12 +33,6 @@ void import(const std::string& file, Job& job, std::optional<Unit>& first_layer_
                  imported.ignored.size(), list.empty() ? "" : ": ", list.c_str());
 }
 
-template <class Target>
-void add_length(CLI::App* command, const std::string& name, Target& target, const std::string& help) {
-    command->add_option_function<std::string>(
-        name, [&target, name](const std::string& text) { target = parse_length(text, name); }, help)->type_name("MM");
-}
-
 }  // namespace
 
 void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_height) {
@@ -62,16 +56,14 @@ void add_tracks(CLI::App* command, TrackSettings& t) {
     group->add_flag("--inner-first", t.inner_first, "perimeters from the inside out");
     group->add_flag_callback("--shell-first", [&t] { t.alternate = false; },
                              "perimeters first on every layer; by default last on odd ones, which saves travel");
-    group->add_option("--covers", t.covers, "zigzag, monotonic or concentric (default zigzag)")
-        ->transform(
-            CLI::CheckedTransformer(std::map<std::string, CoverPattern>{{"zigzag", CoverPattern::zigzag},
-                                                                        {"monotonic", CoverPattern::monotonic},
-                                                                        {"concentric", CoverPattern::concentric}}))
-        ->type_name("HOW");
-    group->add_option("--seam", t.seam, "where outer perimeters begin: aligned, corner or nearest (default aligned)")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, Seam>{
-            {"aligned", Seam::aligned}, {"corner", Seam::corner}, {"nearest", Seam::nearest}}))
-        ->type_name("WHERE");
+    add_choice(group, "--covers", t.covers,
+               {{"zigzag", CoverPattern::zigzag},
+                {"monotonic", CoverPattern::monotonic},
+                {"concentric", CoverPattern::concentric}},
+               "how they are filled (default zigzag)");
+    add_choice(group, "--seam", t.seam,
+               {{"aligned", Seam::aligned}, {"corner", Seam::corner}, {"nearest", Seam::nearest}},
+               "where outer perimeters begin (default aligned)");
     group->add_flag_callback(
         "--no-thin-walls", [&t] { t.thin_walls = false; }, "no tracks where the slice is narrower than one");
     group->add_flag_function(
@@ -88,10 +80,10 @@ void add_tracks(CLI::App* command, TrackSettings& t) {
 
 void add_printer(CLI::App* command, PrinterSettings& p) {
     const auto group = command->add_option_group("Printer");
-    group->add_option("--flavour", p.flavour, "marlin, klipper or reprapfirmware (default marlin)")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, Flavour>{
-            {"marlin", Flavour::marlin}, {"klipper", Flavour::klipper}, {"reprapfirmware", Flavour::reprapfirmware}}))
-        ->type_name("WHOSE");
+    add_choice(
+        group, "--flavour", p.flavour,
+        {{"marlin", Flavour::marlin}, {"klipper", Flavour::klipper}, {"reprapfirmware", Flavour::reprapfirmware}},
+        "whose G-code it is (default marlin)");
     group->add_option("--filament-diameter", p.filament_diameter, "mm")->capture_default_str();
     group->add_option("--temperature", p.nozzle_temperature, "nozzle, degrees C")->capture_default_str();
     group->add_option("--bed-temperature", p.bed_temperature, "degrees C")->capture_default_str();

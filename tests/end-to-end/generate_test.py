@@ -73,6 +73,11 @@ class Generate(unittest.TestCase):
         judged = subprocess.run([PROGRAM, "verify", "a.gcode", "--inside"], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(judged.returncode, 1, judged.stdout)
 
+    def test_layers_higher_than_tracks_are_wide_are_warned_about(self):
+        for height, said in (("0.4", False), ("0.5", True)):
+            done = self.run_program(CUBE, "-o", "a.gcode", "--layer-height", height)
+            self.assertEqual((done.returncode, "higher than tracks are wide" in done.stderr), (0, said), done.stderr)
+
     def test_quiet_says_nothing(self):
         done = self.run_program(CUBE, "-o", "a.gcode", "--quiet")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))

@@ -138,6 +138,9 @@ TEST_CASE("a flat PrusaSlicer config is taken whole; a bad number is refused wit
     CHECK(p.bed_x == 180);
     CHECK_THROWS_WITH(import_prusaslicer("a = 1\ntemperature = warm\n", "c.ini", s, t, p),
                       Catch::Contains("c.ini:2: temperature: 'warm'"));
+    for (const char* bed : {"0x0,nanx0,200x200,0x200", "0x0,infx0,200x200,0x200"})
+        CHECK_THROWS_WITH(import_prusaslicer(std::string("bed_shape = ") + bed + "\n", "c.ini", s, t, p),
+                          Catch::Contains("c.ini:1: bed_shape"));
     CHECK_THROWS_WITH(import_prusaslicer("layer_height = thin\n", "c.ini", s, t, p),
                       Catch::Contains("c.ini:1: layer_height"));
     CHECK_THROWS_WITH(import_prusaslicer("colour = red\n", "c.ini", s, t, p),

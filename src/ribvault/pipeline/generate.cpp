@@ -125,6 +125,10 @@ private:
             throw Error(ErrorKind::does_not_fit, job_.model.string() + ": no layer meets the model, which is " +
                                                      std::to_string(report_.input.size_mm[2]) +
                                                      " mm high; scale it up or use thinner layers");
+        const Settings& settings = job_.settings;
+        if (const Unit h = std::max(settings.layer_height, settings.first_layer_height); h > settings.nozzle)
+            job_.warn("layers of " + std::to_string(to_mm(h)) + " mm are higher than tracks are wide (--nozzle, " +
+                      std::to_string(to_mm(settings.nozzle)) + " mm): such tracks do not stick to the layer below");
         if (report_.input.closed()) return;
         job_.warn(job_.model.string() + ": the mesh is not closed (" + std::to_string(report_.input.boundary_edges) +
                   " boundary edges); its slices are closed over gaps up to --max-gap");

@@ -33,7 +33,8 @@ double number(const std::string& list) {
     const std::string text = first_of(list);
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || text.empty()) throw Error(ErrorKind::usage, "'" + text + "' is not a number");
+    if (error != std::errc() || text.empty() || !std::isfinite(value))
+        throw Error(ErrorKind::usage, "'" + text + "' is not a number");
     if (*end == '%') throw Ignored{"a percentage"};
     if (end != text.data() + text.size()) throw Error(ErrorKind::usage, "'" + text + "' is not a number");
     return value;
