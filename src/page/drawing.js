@@ -37,7 +37,7 @@ function vaultPaths(run, k) {
   for (const path of walls.values()) tracks.addPath(path);
   for (let p = 0; p < s.patches.length; p += 4) { patches.moveTo(s.patches[p], s.patches[p + 1]); patches.lineTo(s.patches[p + 2] + dot, s.patches[p + 3]); }
   const cavity = contours(s.cavity), shell = contours(s.cavity, contours(s.slice));
-  return { shell, cavity, walls, tracks, patches, unsupported: contours(s.unsupported) };
+  return { slice: contours(s.slice), shell, cavity, walls, tracks, patches, unsupported: contours(s.unsupported) };
 }
 
 /** Lines by width, those that are judged apart. */
@@ -112,6 +112,7 @@ class LayerView {
     const stroke = (path, c, width, alpha = 1) => { g.globalAlpha = alpha; g.strokeStyle = colour(c); g.lineWidth = width; g.stroke(path); g.globalAlpha = 1; };
     g.fillStyle = colour("shell"); g.fill(p.shell, "evenodd");
     stroke(p.shell, "edge", 0.8 * pixel);
+    if (run.overhangs(layer)) this.paintOverhang(g, colour("overhang"));
     g.globalAlpha = 0.45; g.fillStyle = colour("hang"); g.fill(p.unsupported); g.globalAlpha = 1;
     for (const [width, path] of p.walls) {
       g.save();
@@ -125,6 +126,19 @@ class LayerView {
     const marks = Object.values(run.marks(layer)).reduce((n, list) => n + list.length, 0);
     const apart = run.numbers(layer).support_length_mm / Math.max(1, marks);  // mm between marks on average
     this.paintMarks(g, colour, Math.min(16 * pixel, Math.max(run.nozzle, Math.min(6 * pixel, 0.6 * apart))));
+  }
+  /** What of the slice lies farther than ρ from the one below: cut out of a picture of its own. */
+  paintOverhang(g, colour) {
+    const { run, layer, canvas } = this, below = this.paths(layer - 1).slice, own = this.apart ||= document.createElement("canvas"), h = own.getContext("2d");
+    own.width = canvas.width; own.height = canvas.height;
+    this.place(h);
+    h.fillStyle = colour; h.fill(this.paths(layer).slice, "evenodd");
+    h.globalCompositeOperation = "destination-out";
+    h.lineJoin = "round"; h.lineWidth = 2 * run.rho;
+    h.fill(below, "evenodd"); h.stroke(below);
+    g.save(); g.setTransform(1, 0, 0, 1, 0, 0); g.drawImage(own, 0, 0); g.restore();
+    const [x, y] = run.numbers(layer).verdict.external.witness_mm;
+    g.fillStyle = colour; g.beginPath(); g.arc(x, y, Math.max(0.06, 2.5 / this.scale), 0, 7); g.fill();
   }
   paintMarks(g, colour, w) {
     const { vertices: v } = this.run.shapes(this.layer), marks = this.run.marks(this.layer), at = i => [v[2 * i], v[2 * i + 1]];

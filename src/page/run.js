@@ -68,6 +68,8 @@ class VaultRun {
   /** Something hangs: inside (then the layer is not proved) or outside. */
   hangs(k) { const n = this.numbers(k); return !n.verdict.supported || !n.print.supported || n.verdict.external !== null; }
   refuted(k) { const n = this.numbers(k); return !n.verdict.supported || !n.print.supported; }
+  /** Something of it hangs outside the layer below, where no external supports stand. */
+  overhangs(k) { return this.numbers(k).verdict.external !== null && (this.header.settings.support || "internal") === "internal"; }
   newArea(k) { return areaOf(this.shapes(k).unsupported); }
   places(k) {
     const { verdict, print } = this.numbers(k), list = [];

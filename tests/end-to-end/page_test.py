@@ -288,6 +288,30 @@ class Pages(unittest.TestCase):
             self.browser.screenshot(SCREENSHOTS / (name[:-5] + "_walls.png"))
             self.at_end()
 
+    def test_what_overhangs_outside_is_drawn(self):
+        """A plate of 20 x 20 mm on a block of 12 x 12 mm: a rim of 4 mm hangs, but for what is within rho of the block."""
+        corners = [(x, y, z) for lo, hi, bottom, top in ((4, 16, 0, 5), (0, 20, 5, 10)) for z in (bottom, top) for x, y in ((lo, lo), (hi, lo), (hi, hi), (lo, hi))]
+        faces = [[8 * k + v for v in f] for k in (0, 1) for f in ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))]
+        (self.folder / "mushroom.off").write_text("OFF\n16 12 0\n" + "".join("%d %d %d\n" % c for c in corners) + "".join("4 %d %d %d %d\n" % tuple(f) for f in faces))
+        pixels = """(places => { const v = page.drawings[0], [x0, y0, x1, y1] = page.runs[0].box;
+          const [ox, oy] = v.origin(), s = v.scale, r = v.canvas.width / v.canvas.clientWidth, g = v.canvas.getContext("2d");
+          const picture = g.getImageData(0, 0, v.canvas.width, v.canvas.height);
+          return places.map(([x, y]) => [Math.round(r * (ox + s * ((x0 + x1) / 2 + x))), Math.round(r * (oy - s * ((y0 + y1) / 2 + y)))])
+            .map(([px, py]) => [...picture.data.slice(4 * (py * picture.width + px), 4 * (py * picture.width + px) + 3)]); })"""
+        for name, options, drawn in (("hollow.html", (), True), ("solid.html", ("--support", "external"), False)):
+            generate(self.folder, "mushroom.off", *options, "--html", name)
+            self.open(name, "#layer=25")
+            rim, near, inside = self.browser.run(pixels + "([[8, 3], [6.1, 3], [0, 3]])")
+            colour = self.browser.run("colours()('overhang')")
+            self.assertEqual("#%02x%02x%02x" % tuple(rim) == colour, drawn, name)
+            self.assertNotEqual("#%02x%02x%02x" % tuple(near), colour, name)
+            self.assertNotEqual("#%02x%02x%02x" % tuple(inside), colour, name)
+            self.assertEqual("overhangs outside" in self.text(".legend"), drawn, name)
+            self.browser.screenshot(SCREENSHOTS / (name[:-5] + "_overhang.png"))
+            self.at_end()
+            self.open(name, "#layer=26")
+            self.assertNotEqual("#%02x%02x%02x" % tuple(self.browser.run(pixels + "([[8, 3]])")[0]), colour, name)
+
     def test_without_webgl_the_drawing_is_there(self):
         with browser.Browser(FOUND, flags=["--disable-3d-apis"]) as plain:
             plain.open(self.folder / "a.html", "#layer=97")

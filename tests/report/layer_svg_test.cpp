@@ -256,6 +256,33 @@ TEST_CASE("walls of several tracks are drawn as wide as these together, as far a
     }
 }
 
+TEST_CASE("what overhangs outside is the slice without what is within rho of the one below") {
+    Slice slice, below;
+    slice.layer = 7;
+    slice.rounded = {square(0, 20 * mm)};
+    below.layer = 6;
+    below.rounded = {square(0, 15 * mm), turned(square(2 * mm, 4 * mm))};
+    Settings settings;
+    settings.support_radius = 30000;
+    const std::string svg = layer_svg(slice, {square(mm, 14 * mm)}, {}, {}, settings, &below);
+    pugi::xml_document document;
+    REQUIRE(document.load_string(svg.c_str()));
+    const pugi::xml_node mask = document.child("svg").child("mask");
+    const pugi::xml_node shown = mask.find_child_by_attribute("path", "fill", "#fff"),
+                         hidden = mask.find_child_by_attribute("path", "fill", "#000"),
+                         drawn = document.child("svg").find_child_by_attribute("path", "fill", "#009e73");
+    CHECK(area(read_path(shown.attribute("d").value())) == Approx(400));
+    CHECK(area(read_path(hidden.attribute("d").value())) == Approx(225 - 4));
+    CHECK(hidden.attribute("stroke-width").value() == std::string(".6"));
+    CHECK(hidden.attribute("stroke-linejoin").value() == std::string("round"));
+    CHECK(area(read_path(drawn.attribute("d").value())) == Approx(400));
+    CHECK(drawn.attribute("mask").value() == "url(#" + std::string(mask.attribute("id").value()) + ")");
+    CHECK_THAT(svg, Catch::Contains("overhangs outside"));
+    slice.layer = 8;  // a contact sheet holds both
+    CHECK_THAT(layer_svg(slice, {}, {}, {}, settings, &below), !Catch::Contains(mask.attribute("id").value()));
+    CHECK_THAT(layer_svg(slice, {}, {}, {}, settings), !Catch::Contains("overhangs") && !Catch::Contains("mask"));
+}
+
 TEST_CASE("everything lies inside the frame, and the caption names layer, height and length") {
     Slice slice;
     slice.layer = 3;

@@ -239,7 +239,9 @@ private:
         from = Time::now();
         if (job_.svg) {
             output->picture.emplace(folder_->picture(layer.layer));
-            output->picture->write(layer_svg(*layer.slice, layer.cavity->region, swept.forest, swept.unsupported, s));
+            const bool overhangs = r.verdict.external && !s.outside();
+            output->picture->write(layer_svg(*layer.slice, layer.cavity->region, swept.forest, swept.unsupported, s,
+                                             overhangs ? below->slice.get() : nullptr));
             output->picture->finish();
         }
         if (job_.mesh) {

@@ -18,6 +18,7 @@ constexpr std::string_view shell_style = R"(fill="#bbb" fill-rule="evenodd")";
 constexpr std::string_view track_style =
     R"(fill="none" stroke="#56b4e9" stroke-linecap="round" stroke-linejoin="round")";
 constexpr std::string_view unsupported_style = R"(fill="#d55e00" fill-opacity=".45")";
+constexpr std::string_view overhang_colour = "#009e73";
 constexpr std::string_view line_style = R"(fill="none" stroke="#003a5c" stroke-width=".05")";
 constexpr std::string_view root_style = R"(stroke="#0072b2" stroke-linecap="square")";
 constexpr std::string_view junction_style = R"(stroke="#e69f00" stroke-linecap="round")";
@@ -49,6 +50,17 @@ void append_tracks(std::string& svg, const SupportForest& forest, const Region& 
         const auto drawn = [&](const SupportVertex& v) { return wall_width(v, settings) == width; };
         append_element(svg, style, track_data(forest, drawn), to_mm(width));
     }
+}
+
+/// What of the slice lies farther than ρ from the one below: the renderer cuts it out.
+void append_overhang(std::string& svg, const Region& slice, const Region& below, Unit radius, int layer) {
+    const std::string id = "beyond" + std::to_string(layer), all = region_data(slice);
+    svg.append(
+        "<mask id=\"" + id + "\"><path fill=\"#fff\" fill-rule=\"evenodd\" d=\"" + all +
+        "\"/><path fill=\"#000\" fill-rule=\"evenodd\" stroke=\"#000\" stroke-linejoin=\"round\" stroke-width=\"" +
+        svg_number(2 * to_mm(radius)) + "\" d=\"" + region_data(below) + "\"/></mask>\n");
+    append_element(svg, "fill=\"" + std::string(overhang_colour) + "\" fill-rule=\"evenodd\" mask=\"url(#" + id + ")\"",
+                   all);
 }
 
 struct Marks {
@@ -131,7 +143,7 @@ void append_scale_bar(std::string& svg, double x, double y, double size) {
 }
 
 /// What the marks mean, in one row; y is its base line.
-void append_legend(std::string& svg, double x, double y, double size) {
+void append_legend(std::string& svg, double x, double y, double size, bool overhang) {
     const double middle = y - 0.35 * size;
     const auto swatch = [&](std::string_view style, double width, double offset, const std::string& name) {
         std::string data("M");
@@ -152,12 +164,18 @@ void append_legend(std::string& svg, double x, double y, double size) {
     append_diamond(dot, x + 39.2 * size, middle, 0.45 * size);
     append_element(svg, dot_style, dot);
     append_text(svg, x + 40.2 * size, y, size, "dot");
+    if (!overhang) return;
+    y += 1.5 * size;
+    append_element(svg, "fill=\"" + std::string(overhang_colour) + "\"",
+                   "M" + svg_number(x) + " " + svg_number(y) + "h" + svg_number(1.4 * size) + "v-" +
+                       svg_number(0.8 * size) + "h-" + svg_number(1.4 * size) + "z");
+    append_text(svg, x + 1.8 * size, y, size, "overhangs outside");
 }
 
 }  // namespace
 
 LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportForest& forest,
-                        const Region& unsupported, const Settings& settings) {
+                        const Region& unsupported, const Settings& settings, const Slice* below) {
     LayerDrawing d;
     d.layer = slice.layer;
     d.z_mm = slice.layer == 0 ? to_mm(settings.first_layer_height) / 2
@@ -170,6 +188,8 @@ LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportF
     const double nozzle = to_mm(settings.nozzle);
     const Marks marks = marks_of(forest, nozzle, d);
     append_element(d.marks, shell_style, region_data(slice.rounded) + region_data(cavity));
+    d.overhang = below != nullptr;
+    if (below) append_overhang(d.marks, slice.rounded, below->rounded, settings.support_radius, d.layer);
     append_tracks(d.marks, forest, cavity, settings, d.layer);
     append_element(d.marks, unsupported_style, region_data(unsupported));
     append_element(d.marks, line_style, track_data(forest));
@@ -187,19 +207,20 @@ std::string layer_svg(const LayerDrawing& drawing) {
     const double left = to_mm(box.lo.x) - margin, top = -to_mm(box.hi.y) - margin;
     const double width = std::max(to_mm(box.hi.x - box.lo.x) + 2 * margin, 40 * size + 2 * margin);
     const double bottom = -to_mm(box.lo.y) + margin;
-    std::string svg = svg_start(left, top, width, bottom + 6.3 * size - top, 20);
+    const double height = bottom + (drawing.overhang ? 7.7 : 6.3) * size - top;
+    std::string svg = svg_start(left, top, width, height, 20);
     svg.append("<title>" + caption(drawing) + "</title>\n" + drawing.marks);
     append_scale_bar(svg, left + margin, bottom + 0.8 * size, size);
     append_text(svg, left + margin, bottom + 2.7 * size, size, caption(drawing));
     append_text(svg, left + margin, bottom + 4.1 * size, size, counts(drawing));
-    append_legend(svg, left + margin, bottom + 5.7 * size, 0.9 * size);
+    append_legend(svg, left + margin, bottom + 5.7 * size, 0.9 * size, drawing.overhang);
     svg += "</svg>\n";
     return svg;
 }
 
 std::string layer_svg(const Slice& slice, const Region& cavity, const SupportForest& forest, const Region& unsupported,
-                      const Settings& settings) {
-    return layer_svg(draw_layer(slice, cavity, forest, unsupported, settings));
+                      const Settings& settings, const Slice* below) {
+    return layer_svg(draw_layer(slice, cavity, forest, unsupported, settings, below));
 }
 
 std::string overview_svg(const std::vector<LayerDrawing>& drawings, int columns) {

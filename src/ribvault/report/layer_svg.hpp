@@ -19,6 +19,7 @@ struct LayerDrawing {
     int junctions = 0;             ///< valence 3 or more, roots among them
     int tips = 0;                  ///< valence 1, no root
     int dots = 0;                  ///< isolated vertices
+    bool overhang = false;         ///< what overhangs outside is drawn
     Box box;                       ///< what the drawing covers, lattice units, y upwards
     std::string marks;             ///< SVG elements, in mm, y downwards (the bed's y is negated)
 };
@@ -29,14 +30,15 @@ struct LayerDrawing {
 /// junctions (valence 3 or more) orange discs, tips black triangles, dots (isolated vertices) purple diamonds. A root
 /// that is a junction has both marks. `unsupported`, what of layer i + 1 had no support before S_i grew, is translucent
 /// vermilion; it may be empty. Marks differ in shape, and the colours are told apart without red and green (Okabe and
-/// Ito's palette). Precondition: the cavity lies inside the slice. Coordinates are rounded to 1 µm.
+/// Ito's palette). With `below`, the slice of layer i - 1, what of this one lies farther than ρ from it is green: it
+/// overhangs outside. Precondition: the cavity lies inside the slice. Coordinates are rounded to 1 µm.
 LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportForest& forest,
-                        const Region& unsupported, const Settings& settings);
+                        const Region& unsupported, const Settings& settings, const Slice* below = nullptr);
 
 /// One layer as an SVG file with a scale bar, a legend and a caption; one unit is one mm.
 std::string layer_svg(const LayerDrawing& drawing);
 std::string layer_svg(const Slice& slice, const Region& cavity, const SupportForest& forest, const Region& unsupported,
-                      const Settings& settings);
+                      const Settings& settings, const Slice* below = nullptr);
 
 /// A contact sheet: the drawings in rows of `columns`, left to right, all at one scale and in the same frame of the
 /// bed, each with its caption. Precondition: columns > 0.
