@@ -69,7 +69,7 @@ def main():
     chosen = parser.parse_args()
     all_proved = True
     print("| model | layers | proved | no cover: total mm3 (supports) | one cover | one cover, thrifty | Table 2 | seconds (paper) | peak MB |")
-    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |", flush=True)
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         for name, file, options, paper_mm3, paper_s in MODELS:
@@ -77,6 +77,7 @@ def main():
             if model is None:
                 print(f"| {name} | {file} is missing: give its folder with --models | | | | | {paper_mm3 or ''} | | |")
                 continue
+            print(f"running {name}", file=sys.stderr)
             bare, _, _ = run(chosen.program, model, [*options, "--top-layers", "0", "--bottom-layers", "0"], folder)
             rounds = [run(chosen.program, model, options, folder) for _ in range(chosen.rounds)]
             covered = rounds[0][0]

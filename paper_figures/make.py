@@ -154,13 +154,14 @@ def main():
     inputs, entries = Inputs(chosen), []
     for number in chosen.numbers or RECIPES:
         start = time.monotonic()
+        print(f"figure {number:2d}  ", end="", flush=True)
         try:
             entries.append(make(number, inputs, chosen.output))
             words = f"made in {time.monotonic() - start:.1f} s" if entries[-1]["made"] else "as it was"
         except results.Unusable as error:
             entries.append({"number": number, "missing": str(error)})
             words = f"NOT MADE: {error}"
-        print(f"figure {number:2d}  {words}", flush=True)
+        print(words, flush=True)
     if not chosen.numbers:
         index(entries, chosen.output)
         print(chosen.output / "index.html")

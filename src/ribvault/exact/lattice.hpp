@@ -33,6 +33,12 @@ struct Point {
 inline Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
 
+/// The place a share of the way from a to b (0: a, 1: b), rounded once.
+inline Point part_way(Point a, Point b, double share) {
+    return a + Point{round_to_lattice(share * static_cast<double>(b.x - a.x)),
+                     round_to_lattice(share * static_cast<double>(b.y - a.y))};
+}
+
 struct Segment {
     Point a;
     Point b;

@@ -118,9 +118,7 @@ Point nearest_point(Point p, const Segment& s) {
     const double l2 = static_cast<double>(squared_length(u));
     if (along <= 0 || l2 == 0) return s.a;
     if (along >= l2) return s.b;
-    const double t = along / l2;
-    return {s.a.x + round_to_lattice(t * static_cast<double>(u.x)),
-            s.a.y + round_to_lattice(t * static_cast<double>(u.y))};
+    return part_way(s.a, s.b, along / l2);
 }
 
 }  // namespace ribvault

@@ -51,8 +51,13 @@ public:
     }
 
 private:
+    /// A document that lies in its own text.
+    struct Xml {
+        std::string text;
+        pugi::xml_document document;
+    };
     struct Part {
-        std::unique_ptr<pugi::xml_document> document;
+        std::unique_ptr<Xml> xml;
         pugi::xml_node root;
         double mm_per_unit = 1;
         std::map<std::string, pugi::xml_node, std::less<>> objects;  // by id
@@ -86,6 +91,10 @@ private:
             fail(name, std::string("the part cannot be opened (") + zip_strerror(archive_.get()) + ")",
                  "export it again without a password");
         std::string text;
+        zip_stat_t facts;
+        if (zip_stat_index(archive_.get(), static_cast<zip_uint64_t>(index), 0, &facts) == 0 &&
+            (facts.valid & ZIP_STAT_SIZE) != 0)
+            text.reserve(std::min<zip_uint64_t>(facts.size, 1 << 30));  // the archive may say anything
         std::vector<char> block(1 << 20);
         zip_int64_t got;
         while ((got = zip_fread(part.get(), block.data(), block.size())) > 0) {
@@ -96,21 +105,21 @@ private:
         return text;
     }
 
-    std::unique_ptr<pugi::xml_document> xml(const std::string& name) const {
-        auto document = std::make_unique<pugi::xml_document>();
-        const std::string text = content(name);
-        const pugi::xml_parse_result result = document->load_buffer(text.data(), text.size());
+    std::unique_ptr<Xml> xml(const std::string& name) const {
+        auto xml = std::make_unique<Xml>();
+        xml->text = content(name);
+        const pugi::xml_parse_result result = xml->document.load_buffer_inplace(xml->text.data(), xml->text.size());
         if (!result)
             fail(name + ", byte " + std::to_string(result.offset),
                  std::string("the XML is broken (") + result.description() + ")", "export the mesh again");
-        return document;
+        return xml;
     }
 
     /// Name of the part where the build is: what the package's relations call the 3D model.
     std::string model_part() const {
         if (has("_rels/.rels")) {
             const auto relations = xml("_rels/.rels");
-            for (const pugi::xml_node& relation : relations->document_element().children())
+            for (const pugi::xml_node& relation : relations->document.document_element().children())
                 if (std::string_view(attribute(relation, "Type").value()).ends_with("/3dmodel"))
                     return plain(attribute(relation, "Target").value());
         }
@@ -125,8 +134,8 @@ private:
         const auto known = parts_.find(name);
         if (known != parts_.end()) return known->second;
         Part part;
-        part.document = xml(name);
-        part.root = part.document->document_element();
+        part.xml = xml(name);
+        part.root = part.xml->document.document_element();
         if (local_name(part.root.name()) != "model") fail(name, "the part is no 3MF <model>", "export the mesh again");
         static const std::map<std::string_view, double> units = {{"micron", 0.001},  {"millimeter", 1},
                                                                  {"centimeter", 10}, {"inch", 25.4},

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
 #include "ribvault/pipeline/verify_print.hpp"
+#include "ribvault/report/number_text.hpp"
 
 namespace ribvault {
 namespace {
@@ -15,20 +15,6 @@ __attribute__((format(printf, 2, 3))) void print(std::string& text, const char* 
     std::vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
     text += line;
-}
-
-std::string fixed(double value, int places) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", places, value);
-    return text;
-}
-
-/// One number where both bounds print alike or differ by less than the last place, else both.
-std::string collapsed(const Enclosure& e, int places) {
-    if (!std::isfinite(e.hi)) return "no material below";
-    if (e.lo > 0 && e.hi < 0.5 * std::pow(10, -places)) return "< " + fixed(std::pow(10, -places), places);
-    if (e.hi - e.lo < std::pow(10, -places)) return fixed((e.lo + e.hi) / 2, places);
-    return fixed(e.lo, places) + " to " + fixed(e.hi, places);
 }
 
 std::string share(const Enclosure& part, double whole) {
@@ -52,9 +38,9 @@ void describe_features(std::string& text, const PrintReport& r) {
           bridges ? "   bridges mm " : "", "worst mm", "where");
     const auto row = [&](const std::string& name, double length, const Enclosure& hangs, const Enclosure& bridged,
                          const std::string& worst, const std::string& place) {
-        print(text, "%-*.60s %12.2f %16s %9s ", w, name.c_str(), length, collapsed(hangs, 3).c_str(),
+        print(text, "%-*.60s %12.2f %16s %9s ", w, name.c_str(), length, number_text(hangs, 3).c_str(),
               share(hangs, length).c_str());
-        if (bridges) print(text, "%13s  ", collapsed(bridged, 3).c_str());
+        if (bridges) print(text, "%13s  ", number_text(bridged, 3).c_str());
         print(text, "%-10s %s\n", worst.c_str(), place.c_str());
     };
     for (const HangingFeature& f : r.features) {
@@ -64,7 +50,7 @@ void describe_features(std::string& text, const PrintReport& r) {
             continue;
         }
         const bool hangs = f.worst_layer >= 0;
-        row(f.name, f.length_mm, f.unsupported_mm, f.bridged_mm, hangs ? collapsed(f.worst_mm, 3) : "-",
+        row(f.name, f.length_mm, f.unsupported_mm, f.bridged_mm, hangs ? number_text(f.worst_mm, 3) : "-",
             hangs ? where(f) : "");
     }
     row("total", r.length_mm, r.unsupported_mm, r.bridged_mm, "", "");
@@ -89,7 +75,7 @@ void describe_verdict(std::string& text, const PrintReport& r) {
                 "           inside the outline of the layer below; what hangs outside it was not judged (--inside)\n");
     } else {
         print(text, "NOT SUPPORTED  on %d of %d layers, %s mm2 in all have no material within rho below:\n",
-              r.layers_unsupported, r.layer_count, collapsed(r.area_mm2, 3).c_str());
+              r.layers_unsupported, r.layer_count, number_text(r.area_mm2, 3).c_str());
         for (const std::size_t k : worst_layers(r, 5)) {
             const HangingLayer& layer = r.layers[k];
             Enclosure area;
@@ -100,7 +86,7 @@ void describe_verdict(std::string& text, const PrintReport& r) {
             }
             if (worst == nullptr) continue;
             print(text, "  layer %d (z %.2f): %s mm2 in %zu regions, the largest at x %.3f y %.3f, line %lld\n",
-                  layer.layer, layer.z_mm, collapsed(area, 3).c_str(), layer.regions.size(), worst->witness[0],
+                  layer.layer, layer.z_mm, number_text(area, 3).c_str(), layer.regions.size(), worst->witness[0],
                   worst->witness[1], static_cast<long long>(worst->lines.empty() ? 0 : worst->lines.front()));
         }
     }

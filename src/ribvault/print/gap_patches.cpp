@@ -14,9 +14,7 @@ constexpr Unit within_edge = 5;
 
 /// The k-th of the points that divide a segment into so many pieces.
 Point division(const Segment& s, std::size_t k, std::size_t pieces) {
-    const double t = static_cast<double>(k) / static_cast<double>(pieces);
-    const Point d = s.b - s.a;
-    return s.a + Point{round_to_lattice(t * static_cast<double>(d.x)), round_to_lattice(t * static_cast<double>(d.y))};
+    return part_way(s.a, s.b, static_cast<double>(k) / static_cast<double>(pieces));
 }
 
 }  // namespace
@@ -62,8 +60,7 @@ double GapPatches::room_around(const Segment& patch) const {
 
 Point GapPatches::Edge::shifted(Unit by) const {
     const double l = length(inwards), t = l > 0 ? static_cast<double>(by) / l : 0;
-    return foot + Point{round_to_lattice(t * static_cast<double>(inwards.x)),
-                        round_to_lattice(t * static_cast<double>(inwards.y))};
+    return part_way(foot, foot + inwards, t);
 }
 
 GapPatches::Edge GapPatches::edge_beside(Point p) const {

@@ -168,13 +168,9 @@ private:
                                            std::pair(target(*e, forest_), source(*e, forest_))}) {
                 if (out_degree(from, forest_) < 2 && !forest_[from].root) continue;
                 // A gap takes the first width of the wall at most.
-                const Point a = forest_[from].at, d = forest_[to].at - a;
-                const double l = length(d), share = l > static_cast<double>(settings_.nozzle)
-                                                        ? static_cast<double>(settings_.nozzle) / l
-                                                        : 1;
-                const Segment gap{a,
-                                  {a.x + round_to_lattice(share * static_cast<double>(d.x)),
-                                   a.y + round_to_lattice(share * static_cast<double>(d.y))}};
+                const Point a = forest_[from].at, b = forest_[to].at;
+                const double l = length(b - a), width = static_cast<double>(settings_.nozzle);
+                const Segment gap{a, part_way(a, b, l > width ? width / l : 1)};
                 if (!std::any_of(places.begin(), places.end(), [&](const Place& p) {
                         return near(gap, p.segment, p.reach) && distance(gap, p.segment) <= p.reach;
                     }))
@@ -321,10 +317,9 @@ private:
     /// ends can reach.
     Segment lowered(const Segment& s, std::size_t before) const {
         const auto moved = [&](Point p, double most) {
-            const Point near = nearest_material(p, before), way = near - p;
-            const double d = length(way), t = d > most ? most / d : 1;
-            return p + Point{round_to_lattice(t * static_cast<double>(way.x)),
-                             round_to_lattice(t * static_cast<double>(way.y))};
+            const Point near = nearest_material(p, before);
+            const double d = length(near - p);
+            return part_way(p, near, d > most ? most / d : 1);
         };
         const Unit half = round_to_lattice(length(s) / 2) + 2;
         if (half > step()) return {moved(s.a, static_cast<double>(step())), moved(s.b, static_cast<double>(step()))};

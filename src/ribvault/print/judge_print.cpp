@@ -78,9 +78,7 @@ Segment place_of(const PrintedTrack& track, const OpenStretch& stretch) {
     const Segment whole{lattice(track.a), lattice(track.b)};
     const double l = length(whole);
     const auto at = [&](double mm) {
-        const double t = l > 0 ? std::clamp(mm * units_per_mm / l, 0.0, 1.0) : 0;
-        return Point{whole.a.x + round_to_lattice(t * static_cast<double>(whole.b.x - whole.a.x)),
-                     whole.a.y + round_to_lattice(t * static_cast<double>(whole.b.y - whole.a.y))};
+        return part_way(whole.a, whole.b, l > 0 ? std::clamp(mm * units_per_mm / l, 0.0, 1.0) : 0);
     };
     return {at(stretch.from_mm), at(stretch.to_mm)};
 }

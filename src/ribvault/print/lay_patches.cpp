@@ -127,10 +127,7 @@ private:
     /// `to`, or on the way there what is just far enough for a step.
     static Point beyond_tiny(Point from, Point to) {
         if (!is_tiny_step(from, to)) return to;
-        const Point way = to - from;
-        const double t = 1.01 * static_cast<double>(shortest_step) / length(way);
-        return from + Point{round_to_lattice(t * static_cast<double>(way.x)),
-                            round_to_lattice(t * static_cast<double>(way.y))};
+        return part_way(from, to, 1.01 * static_cast<double>(shortest_step) / length(to - from));
     }
 
     /// Of the same kind; `at`: its point nearest to the patch.

@@ -61,48 +61,52 @@ std::vector<std::vector<Vec>> sections_of(const HangingStretch& stretch) {
     return sections;
 }
 
-/// What hangs, as samples: of every cross-section all that is beyond reach, or what is nearest to that.
-std::vector<Vec> hanging(const HangingStretch& stretch, const std::vector<Lane>& material, double rho, double& most) {
-    std::vector<Vec> points;
-    most = -HUGE_VAL;
-    for (const std::vector<Vec>& section : sections_of(stretch)) {
-        Vec worst;
-        double worst_excess = -HUGE_VAL;
-        for (const Vec p : section) {
-            const double e = excess(p, material, rho);
-            if (e > worst_excess) worst_excess = e, worst = p;
-            if (e > 0) points.push_back(p);
+/// Samples of one cross-section of what may hang.
+struct Section {
+    std::vector<Vec> beyond;  ///< what is beyond the material's reach
+    Vec worst;
+    double excess = -HUGE_VAL;  ///< of the worst: how far beyond it is, negative within reach
+};
+
+std::vector<Section> look_at(const HangingStretch& stretch, const std::vector<Lane>& material, Unit rho) {
+    const std::vector<Lane> near = within_reach(stretch, material, static_cast<double>(rho));
+    std::vector<Section> sections;
+    for (const std::vector<Vec>& samples : sections_of(stretch)) {
+        Section& section = sections.emplace_back();
+        for (const Vec p : samples) {
+            const double e = excess(p, near, static_cast<double>(rho));
+            if (e > section.excess) section.excess = e, section.worst = p;
+            if (e > 0) section.beyond.push_back(p);
         }
-        if (worst_excess <= 0) points.push_back(worst);
-        most = std::max(most, worst_excess);
     }
-    return points;
+    return sections;
 }
+
+bool less_far(const Section& a, const Section& b) { return a.excess < b.excess; }
 
 }  // namespace
 
 std::vector<Point> hanging_points(const HangingStretch& stretch, const std::vector<Lane>& material, Unit rho) {
-    const std::vector<Lane> near = within_reach(stretch, material, static_cast<double>(rho));
+    const std::vector<Section> sections = look_at(stretch, material, rho);
     std::vector<Point> points;
-    Vec worst;
-    double most = -HUGE_VAL;
-    for (const std::vector<Vec>& section : sections_of(stretch))
-        for (const Vec p : section) {
-            const double e = excess(p, near, static_cast<double>(rho));
-            if (e > 0) points.push_back(rounded(p));
-            if (e > most) most = e, worst = p;
-        }
-    if (points.empty()) points.push_back(rounded(worst));
+    for (const Section& section : sections)
+        for (const Vec p : section.beyond) points.push_back(rounded(p));
+    if (points.empty()) points.push_back(rounded(std::max_element(sections.begin(), sections.end(), less_far)->worst));
     return points;
 }
 
 std::optional<PlacedDot> place_dot(const HangingStretch& stretch, const std::vector<Lane>& material, Unit width,
                                    Unit rho) {
     if (material.empty()) return std::nullopt;
-    double most = 0;
-    const std::vector<Vec> points =
-        hanging(stretch, within_reach(stretch, material, static_cast<double>(rho)), static_cast<double>(rho), most);
-    if (most < -room) return PlacedDot{stretch.track.centre.a, 0, false};
+    const std::vector<Section> sections = look_at(stretch, material, rho);
+    if (std::max_element(sections.begin(), sections.end(), less_far)->excess < -room)
+        return PlacedDot{stretch.track.centre.a, 0, false};
+    std::vector<Vec> points;  // where a section is within reach, what of it is farthest
+    for (const Section& section : sections)
+        if (section.beyond.empty())
+            points.push_back(section.worst);
+        else
+            points.insert(points.end(), section.beyond.begin(), section.beyond.end());
     Vec middle;
     for (const Vec& p : points) middle = middle + 1.0 / static_cast<double>(points.size()) * p;
 

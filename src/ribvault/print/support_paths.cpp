@@ -116,10 +116,7 @@ std::vector<Point> points_after_gap(const RootedForest& f, const std::vector<Ver
         const double after = before + f.edge_length[vertices[i]];
         if (after >= gap) {
             if (before < gap) {
-                const Point a = f.at(vertices[i - 1]), d = f.at(vertices[i]) - a;
-                const double t = (gap - before) / (after - before);
-                add(a + Point{round_to_lattice(t * static_cast<double>(d.x)),
-                              round_to_lattice(t * static_cast<double>(d.y))});
+                add(part_way(f.at(vertices[i - 1]), f.at(vertices[i]), (gap - before) / (after - before)));
             }
             add(f.at(vertices[i]));
         }

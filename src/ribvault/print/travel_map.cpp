@@ -87,20 +87,16 @@ bool TravelMap::detour(Point from, Point to, int contours_left, int& views_left,
         return false;
     });
     if (last < first) return false;
-    const auto along = [&](double t) {
-        return from + Point{round_to_lattice(t * static_cast<double>(to.x - from.x)),
-                            round_to_lattice(t * static_cast<double>(to.y - from.y))};
-    };
     const Contour* ring = nullptr;
     std::size_t enter = 0;
     double nearest = std::numeric_limits<double>::infinity();
     for (const Contour& perimeter : perimeters_) {
         double far = 0;
-        const std::size_t vertex = nearest_vertex(perimeter, along(first), far);
+        const std::size_t vertex = nearest_vertex(perimeter, part_way(from, to, first), far);
         if (far < nearest) nearest = far, ring = &perimeter, enter = vertex;
     }
     double far = 0;
-    const std::size_t n = ring->size(), leave = nearest_vertex(*ring, along(last), far);
+    const std::size_t n = ring->size(), leave = nearest_vertex(*ring, part_way(from, to, last), far);
     std::vector<Point> best;
     double shortest = std::numeric_limits<double>::infinity();
     for (const std::size_t step : {std::size_t{1}, n - 1}) {

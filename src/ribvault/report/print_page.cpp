@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ribvault/report/boundary_path.hpp"
+#include "ribvault/report/number_text.hpp"
 #include "ribvault/report/packed.hpp"
 #include "ribvault/report/printed_layer_svg.hpp"
 
@@ -71,12 +72,6 @@ std::string packed_lines(const GcodeLayer& layer) {
     return out.bytes();
 }
 
-std::string fixed(double value, int places) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", places, value);
-    return text;
-}
-
 Json facts(const GcodePrint& print, const PrintReport& r) {
     Json features = Json::array();
     for (const HangingFeature& f : r.features) {
@@ -110,7 +105,7 @@ Json facts(const GcodePrint& print, const PrintReport& r) {
     const bool all = r.unsupported_mm.hi == 0 && r.area_mm2.hi == 0;
     const std::string found = all ? "all " + fixed(r.length_mm, 0) + " mm of tracks have material within ρ below."
                                   : fixed(r.unsupported_mm.hi, 1) + " of " + fixed(r.length_mm, 0) + " mm and " +
-                                        fixed(r.area_mm2.lo, 2) + " to " + fixed(r.area_mm2.hi, 2) +
+                                        number_text(r.area_mm2, 2) +
                                         " mm² have no material within ρ below.";
     const std::string words = rule + found + (r.cut.empty() ? "" : " The file is cut off: " + r.cut + ".");
     return {{"kind", "gcode"},

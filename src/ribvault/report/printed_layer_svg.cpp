@@ -1,11 +1,10 @@
 #include "ribvault/report/printed_layer_svg.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <map>
 
 #include "ribvault/report/boundary_path.hpp"
+#include "ribvault/report/number_text.hpp"
 #include "ribvault/report/svg_path.hpp"
 
 namespace ribvault {
@@ -20,11 +19,6 @@ Point lattice(const GcodePoint& p) {
 
 Point lattice(const std::array<double, 2>& p) {
     return {round_to_lattice(p[0] * units_per_mm), round_to_lattice(p[1] * units_per_mm)};
-}
-
-std::string fixed(double value, int places) {
-    char text[64];
-    return std::string(text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, places).ptr);
 }
 
 /// All tracks of a layer, one path a width.
@@ -55,9 +49,8 @@ std::string text(double x, double y, double size, const std::string& words) {
 std::string caption(const HangingLayer& l) {
     Enclosure area;
     for (const HangingRegion& r : l.regions) area += r.area_mm2;
-    const std::string least = fixed(area.lo, 2), most = fixed(area.hi, 2);
     return "layer " + std::to_string(l.layer) + ", z " + fixed(l.z_mm, 2) + " mm: " + fixed(l.unsupported_mm.hi, 2) +
-           " mm of " + fixed(l.length_mm, 1) + " mm hang, " + (least == most ? most : least + " to " + most) + " mm²";
+           " mm of " + fixed(l.length_mm, 1) + " mm hang, " + number_text(area, 2) + " mm²";
 }
 
 std::string legend(double x, double y, double size, bool bridges) {

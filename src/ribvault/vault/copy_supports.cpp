@@ -13,9 +13,7 @@ struct Meeting {
         return static_cast<Int128>(numerator) * o.denominator < static_cast<Int128>(o.numerator) * denominator;
     }
     Point on(const Segment& s) const {
-        const double t = static_cast<double>(numerator) / static_cast<double>(denominator);
-        return {s.a.x + round_to_lattice(t * static_cast<double>(s.b.x - s.a.x)),
-                s.a.y + round_to_lattice(t * static_cast<double>(s.b.y - s.a.y))};
+        return part_way(s.a, s.b, static_cast<double>(numerator) / static_cast<double>(denominator));
     }
 };
 

@@ -35,13 +35,11 @@ ErodedSupports erode_supports(const SupportForest& forest, Unit step, Unit pilla
         std::uint32_t edge = at[tip][0];
         while (true) {
             const std::size_t next = list[edge].a == v ? list[edge].b : list[edge].a;
-            const Point along = forest[next].at - forest[v].at;
-            const double l = length(along);
+            const double l = length(forest[next].at - forest[v].at);
             if (l > left) {
                 // One unit short of the limit, so that the rounding to the lattice stays within it.
                 const double t = left > 1 ? (left - 1) / l : 0;
-                place[v] = {forest[v].at.x + round_to_lattice(t * static_cast<double>(along.x)),
-                            forest[v].at.y + round_to_lattice(t * static_cast<double>(along.y))};
+                place[v] = part_way(forest[v].at, forest[next].at, t);
                 break;
             }
             list[edge].alive = false;

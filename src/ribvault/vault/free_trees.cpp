@@ -108,11 +108,9 @@ void centre_free_trees(SupportForest& forest) {
         forest[v].root = forest[v].free = false;
         Vertex centre = middle.vertex;
         if (middle.along > 0) {
-            const Point a = forest[middle.vertex].at, d = forest[middle.next].at - a;
-            const double t = middle.along / length(d);
-            const Point at{a.x + round_to_lattice(t * static_cast<double>(d.x)),
-                           a.y + round_to_lattice(t * static_cast<double>(d.y))};
-            if (at == forest[middle.next].at) centre = middle.next;
+            const Point a = forest[middle.vertex].at, b = forest[middle.next].at,
+                        at = part_way(a, b, middle.along / length(b - a));
+            if (at == b) centre = middle.next;
             else if (at != a) {
                 centre = add_vertex(SupportVertex{at}, forest);
                 remove_edge(middle.vertex, middle.next, forest);

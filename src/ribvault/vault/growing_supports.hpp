@@ -44,9 +44,7 @@ public:
     }
     /// Puts it back, shortened to a share of `whole`.
     void restore(const NewWall& wall, const Segment& whole, double share) {
-        const Point d = whole.b - whole.a;
-        forest_[wall.vertex].at = {whole.a.x + round_to_lattice(share * static_cast<double>(d.x)),
-                                  whole.a.y + round_to_lattice(share * static_cast<double>(d.y))};
+        forest_[wall.vertex].at = part_way(whole.a, whole.b, share);
         walls_[wall.index].alive = true;
         add_edge(wall.vertex, wall.joint, forest_);
     }

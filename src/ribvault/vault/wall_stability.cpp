@@ -50,8 +50,7 @@ private:
         place.standing = height_a_ + share * (height_b_ - height_a_);
         place.to_root = std::min(root_a_ + t, root_b_ + l_ - t);
         place.ratio = std::min(place.standing, place.to_root) / width_;
-        place.at = a_ + Point{round_to_lattice(share * static_cast<double>(b_.x - a_.x)),
-                              round_to_lattice(share * static_cast<double>(b_.y - a_.y))};
+        place.at = part_way(a_, b_, share);
         return place;
     }
 
