@@ -22,7 +22,7 @@ struct Written {
     std::string strategy = "paper", narrow_bonus;
     bool no_shrink = false, no_trim = false, no_doubling = false;
     bool no_straighten = false, no_branch_bonus = false, quiet = false;
-    std::string rotate, up = "z";
+    std::string rotate, up = "z", imported;
 };
 
 std::uint64_t parse_seed(const std::string& text) {
@@ -196,6 +196,7 @@ void complete(Written& w) {
     w.job.placement.bed_x = w.job.printer.bed_x;
     w.job.placement.bed_y = w.job.printer.bed_y;
     w.job.placement.bed_z = w.job.printer.bed_z;
+    w.job.placement.round_bed = w.job.printer.round_bed;
     w.job.placement.origin_at_centre = w.job.printer.origin_at_centre;
     w.job.model = w.model;
     const auto path = [](const std::string& text) {
@@ -207,6 +208,7 @@ void complete(Written& w) {
 
 int run(Written& w) {
     complete(w);
+    if (!w.quiet && !w.imported.empty()) std::fprintf(stderr, "%s\n", w.imported.c_str());
     Progress progress(w.quiet);
     w.job.progress = [&](int done, int total) { progress(done, total); };
     w.job.stop = interrupted;
@@ -239,7 +241,7 @@ std::function<int()> add_generate(CLI::App& app) {
     add_output(command, "--html", written->html, "page to look at the whole run, in one file");
     command->add_option("--threads", written->job.threads, "0: all processors")->check(CLI::Range(0, 1024));
     command->add_flag("--quiet", written->quiet, "print errors only");
-    add_profiles(command, written->job, written->first_layer_height);
+    add_profiles(command, written->job, written->first_layer_height, written->imported);
     add_geometry(command, *written);
     add_tracks(command, written->job.tracks);
     add_placement(command, *written);

@@ -22,20 +22,21 @@ std::string text_of(const std::string& file) {
     return text.str();
 }
 
-void import(const std::string& file, Job& job, std::optional<Unit>& first_layer_height) {
+/// What was imported, in words.
+std::string import(const std::string& file, Job& job, std::optional<Unit>& first_layer_height) {
     Settings& s = job.settings;
     s.first_layer_height = 0;
     const ImportedConfig imported = import_prusaslicer(text_of(file), file, s, job.tracks, job.printer);
     if (s.first_layer_height > 0) first_layer_height = s.first_layer_height;
     std::string list;
     for (const std::string& key : imported.ignored) (list += list.empty() ? "" : ", ") += key;
-    std::fprintf(stderr, "%s: %zu settings taken, %zu ignored%s%s\n", file.c_str(), imported.taken.size(),
-                 imported.ignored.size(), list.empty() ? "" : ": ", list.c_str());
+    return file + ": " + std::to_string(imported.taken.size()) + " settings taken, " +
+           std::to_string(imported.ignored.size()) + " ignored" + (list.empty() ? "" : ": ") + list;
 }
 
 }  // namespace
 
-void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_height) {
+void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_height, std::string& imported) {
     std::string names;
     for (const BuiltinProfile& profile : builtin_profiles()) (names += names.empty() ? "" : ", ") += profile.name;
     const auto printer = command
@@ -47,7 +48,10 @@ void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_
         "--profile", [&job](const std::string& file) { job.printer = read_profile(text_of(file), file); },
         "a printer profile (docs/printing.md)")->type_name("FILE")->excludes(printer);
     command->add_option_function<std::string>(
-        "--import", [&job, &first_layer_height](const std::string& file) { import(file, job, first_layer_height); },
+        "--import",
+        [&job, &first_layer_height, &imported](const std::string& file) {
+            imported = import(file, job, first_layer_height);
+        },
         "a PrusaSlicer config or bundle (.ini)")->type_name("FILE")->excludes(printer)->excludes(profile);
 }
 

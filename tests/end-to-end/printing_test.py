@@ -85,6 +85,34 @@ class Printing(unittest.TestCase):
         self.assertEqual(self.run_program("--profile", "none.ini").returncode, 3)
         self.assertEqual(self.run_program("--printer", "none").returncode, 2)
 
+    def test_perimeters_inner_first_on_islands_of_unequal_width(self):
+        """One island has no room for an inner perimeter."""
+        boxes = ((0, 10), (11, 11.6))
+        corners = [(x, y, z) for lo, hi in boxes for z in (0, 4) for x, y in ((lo, 0), (hi, 0), (hi, 10), (lo, 10))]
+        faces = [[8 * k + v for v in f] for k in (0, 1) for f in ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))]
+        towers = self.folder / "towers.off"
+        towers.write_text("OFF\n16 12 0\n" + "".join("%g %g %g\n" % c for c in corners) + "".join("4 %d %d %d %d\n" % tuple(f) for f in faces))
+        for options in ([], ["--shell-first"], ["--strategy", "thrifty"]):
+            done = subprocess.run([PROGRAM, "generate", towers, "-o", "a.gcode", "--perimeters", "2", "--inner-first", "--quiet", *options],
+                                  cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            types = re.findall(r"^;TYPE:(.*)$", (self.folder / "a.gcode").read_text(), re.M)
+            self.assertIn("Perimeter", types)
+            self.assertEqual(subprocess.run([PROGRAM, "verify", "a.gcode", "--inside", "--quiet"], cwd=self.folder).returncode, 0)
+
+    def test_a_print_that_begins_in_the_air_says_so(self):
+        """A pyramid on its tip: the lowest slices have no room for any track."""
+        (self.folder / "tip.off").write_text("OFF\n5 6 0\n0 0 0\n2 2 9\n-2 2 9\n-2 -2 9\n2 -2 9\n3 0 1 2\n3 0 2 3\n3 0 3 4\n3 0 4 1\n3 1 3 2\n3 1 4 3\n")
+        done = subprocess.run([PROGRAM, "generate", "tip.off", "-o", "a.gcode"], cwd=self.folder, capture_output=True, text=True)
+        self.assertIn("the print begins in the air", done.stdout)
+        first = re.search(r"^;LAYER:(\d+)\n;Z:(\S+)\n(?:(?!;LAYER:).*\n)*?;TYPE:", (self.folder / "a.gcode").read_text(), re.M)
+        self.assertIn("lowest %s layers" % first.group(1), done.stdout)
+        done = subprocess.run([PROGRAM, "verify", "a.gcode"], cwd=self.folder, capture_output=True, text=True)
+        self.assertIn("mm over z = 0", done.stderr)
+        self.gcode()
+        done = subprocess.run([PROGRAM, "verify", "a.gcode"], cwd=self.folder, capture_output=True, text=True)
+        self.assertNotIn("over z = 0", done.stderr)
+
     def test_import_says_what_it_ignored(self):
         (self.folder / "prusa.ini").write_text("layer_height = 0.3\nperimeters = 2\nfill_density = 20%\nbed_shape = 0x0,200x0,200x180,0x180\n")
         done = self.run_program("--import", "prusa.ini", "--perimeters", "1")
@@ -99,7 +127,10 @@ class Printing(unittest.TestCase):
         done = self.run_program("--bed", "24,24,30", "--brim", "3")
         self.assertEqual(done.returncode, 5)
         self.assertIn("skirt and brim", done.stderr)
-        self.assertEqual(self.run_program("--printer", "microdelta", "--scale", "6").returncode, 5)
+        done = self.run_program("--printer", "microdelta", "--scale", "10")
+        self.assertEqual(done.returncode, 5)
+        advised = re.search(r"use --scale (\S+) or less", done.stderr).group(1)
+        self.assertEqual(self.run_program("--printer", "microdelta", "--scale", advised).returncode, 0)
 
     def test_thumbnails(self):
         text, _ = self.gcode("--thumbnails", "16x16,220x124")

@@ -59,6 +59,29 @@ TEST_CASE("islands: holes belong to the outer contour around them, islands in ho
     CHECK(Islands({}).size() == 1);
 }
 
+TEST_CASE("what must come after a track of another island or stage does not wait for it") {
+    const Region outline{square(0, 0, 20 * mm), square(30 * mm, 0, 20 * mm)};
+    for (const bool shell_first : {true, false}) {
+        LayerPlan plan;
+        const auto add = [&](TrackKind kind, Unit x, std::size_t after) {
+            plan.tracks.push_back(
+                {{{kind, 40000, false, {{x, 5 * mm}, {x + mm, 5 * mm}}}}, Entry::either_end, after});
+        };
+        add(TrackKind::cover, 2 * mm, 5), add(TrackKind::cover, 5 * mm, 0), add(TrackKind::cover, 32 * mm, no_stop);
+        add(TrackKind::cover, 35 * mm, 2), add(TrackKind::outer_perimeter, mm, no_stop);
+        add(TrackKind::cover, 38 * mm, shell_first ? 4 : 1);
+        const LayerPaths layer = order_paths(std::move(plan), outline);
+        REQUIRE(layer.paths.size() == 6);
+        const auto place = [&](Unit x) {
+            return std::find_if(layer.paths.begin(), layer.paths.end(), [&](const ToolPath& path) {
+                return std::min(path.points.front().x, path.points.back().x) == x;
+            });
+        };
+        CHECK(place(2 * mm) < place(5 * mm));
+        CHECK(place(32 * mm) < place(35 * mm));
+    }
+}
+
 TEST_CASE("one island is finished before the next, perimeters before what they enclose, or last on odd layers") {
     for (const bool alternate : {false, true})
         for (const int number : {0, 1, 2, 3}) {

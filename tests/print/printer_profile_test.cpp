@@ -61,6 +61,13 @@ TEST_CASE("bad profiles are refused with the key and the line") {
     CHECK(refusal(temperatures + "start_gcode = G1 {speed}\n").find("{speed}") != std::string::npos);
     CHECK(refusal(temperatures + "hello\n").find("my.ini:3: 'hello' is no setting") == 0);
     CHECK(refusal(temperatures + "[printer\n").find("my.ini:3:") == 0);
+    CHECK(refusal(temperatures + "start_gcode = G1 {speed}\n").find("start_gcode: start_gcode") == std::string::npos);
+    CHECK(refusal(temperatures + "bed = 200,-1,200\n").find("my.ini:3: bed: bed's depth") == 0);
+    CHECK(refusal(temperatures + "bed = 200,200,1e300\n").find("my.ini:3: bed: highest print") == 0);
+    CHECK(refusal(temperatures + "thumbnails = big\n").find("my.ini:3: thumbnails: 'big' is no size") == 0);
+    CHECK(refusal(temperatures + "thumbnails = 4294967297x1\n").find("my.ini:3: thumbnails:") == 0);
+    CHECK(refusal(temperatures + "name =\n").find("my.ini:3: name: the printer has no name") == 0);
+    CHECK(refusal("").find("my.ini: nozzle_temperature: missing") == 0);
 }
 
 TEST_CASE("built-in profiles: the paper's printers") {
@@ -76,6 +83,11 @@ TEST_CASE("built-in profiles: the paper's printers") {
     CHECK(builtin_profile("cr-10").bed_y >= 270);
     CHECK(builtin_profile("ultimaker3").filament_diameter == 2.85);
     CHECK(gcode_header({}, {}, builtin_profile("ultimaker3"), {}).find(";START_OF_HEADER\n") == 0);
+    Settings wide;
+    wide.nozzle = 80000;
+    const std::string header = gcode_header(wide, {}, builtin_profile("ultimaker3"), {});
+    CHECK(header.find("NOZZLE.DIAMETER:0.8\n") != std::string::npos);
+    CHECK(header.find("NOZZLE.NAME:AA 0.8\n") != std::string::npos);
     CHECK(builtin_profile("microdelta").origin_at_centre);
     CHECK_THROWS_WITH(builtin_profile("replicator"), Catch::Contains("cr-10") && Catch::Contains("replicator"));
 }
@@ -126,6 +138,37 @@ TEST_CASE("a PrusaSlicer bundle: the presets it names, with what they inherit; t
     CHECK(ignored("seam_position ("));
     CHECK(ignored("end_gcode ("));
     CHECK_FALSE(ignored("layer_height"));
+}
+
+TEST_CASE("what a PrusaSlicer config says and cannot be, or names and does not have, is said") {
+    Settings s;
+    TrackSettings t;
+    PrinterSettings p;
+    for (const char* line : {"temperature = 1e300", "temperature = 4294967511", "perimeters = 4294967298",
+                             "perimeters = 1.6", "skirts = 1e300"})
+        CHECK_THROWS_WITH(import_prusaslicer(line, "c.ini", s, t, p),
+                          Catch::Contains("c.ini:1: ") && Catch::Contains("is not a whole number"));
+    for (const char* line : {"perimeter_speed = 0", "max_print_height = 0", "thumbnails = big"}) {
+        PrinterSettings fresh;
+        CHECK_THROWS_WITH(import_prusaslicer(line, "c.ini", s, t, fresh), Catch::StartsWith("c.ini: "));
+    }
+    const auto ignored = [&](const std::string& text) {
+        std::string all;
+        for (const std::string& key : import_prusaslicer(text, "c.ini", s, t, p).ignored) all += key + "; ";
+        return all;
+    };
+    CHECK(ignored("[presets]\nprint = Nope\n[printer:P]\nnozzle_diameter = 0.4\n[print:A]\nperimeters = 3\n") ==
+          "[print:Nope] (named, but not in the file); ");
+    CHECK(ignored("[print:A]\ninherits = system\nperimeters = 3\n") ==
+          "[print:system] (named, but not in the file); ");
+    CHECK(ignored("nozzle_diameter = 0.4\nfirst_layer_extrusion_width = 0.9\n") ==
+          "first_layer_extrusion_width (more than twice the nozzle); ");
+    t.brim_width = 0;
+    import_prusaslicer("brim_type = no_brim\nbrim_width = 5\nname = mine\n", "c.ini", s, t, p);
+    CHECK(t.brim_width == 0);
+    CHECK(p.name == "imported from PrusaSlicer");
+    import_prusaslicer("brim_type = outer_only\nbrim_width = 5\n", "c.ini", s, t, p);
+    CHECK(t.brim_width == 5 * units_per_mm);
 }
 
 TEST_CASE("a flat PrusaSlicer config is taken whole; a bad number is refused with key and line") {

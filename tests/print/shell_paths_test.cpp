@@ -57,8 +57,8 @@ void check_shell(const Region& outline, const Region& cavity, const Settings& se
     const std::vector<Segment> border = segments(outline), inner = segments(cavity);
     bool covers_began = false;
     for (const ToolPath& path : layer.paths) {
-        REQUIRE(path.points.size() >= 2);
         if (path.kind == TrackKind::thin_wall) continue;
+        REQUIRE(path.points.size() >= 2);
         REQUIRE(path.width == settings.nozzle);
         const std::vector<Segment> track = segments(path);
         const double to_border = distance(track, border);
@@ -255,6 +255,63 @@ TEST_CASE("the printed shell fills slices that a thin wall crosses: what has no 
     CHECK(wall > 6.5 * mm);
     CHECK(wall < 7.5 * mm);
     CHECK(layer.thin_places == 0);
+}
+
+TEST_CASE("a pin at least half as wide as a track is printed, as a dot where it has room for nothing longer") {
+    for (Unit diameter = 15000; diameter <= 70000; diameter += 1000) {
+        Contour pin;
+        for (int i = 0; i < 64; ++i) {
+            const double angle = 2 * std::numbers::pi * (i + 0.5) / 64;
+            pin.push_back({round_to_lattice(0.5 * static_cast<double>(diameter) * std::cos(angle)),
+                           round_to_lattice(0.5 * static_cast<double>(diameter) * std::sin(angle))});
+        }
+        const LayerPaths layer = shell_paths({pin}, {}, Settings{});
+        INFO(diameter << " units across, " << layer.paths.size() << " paths");
+        if (diameter < 20000) {
+            CHECK(layer.paths.empty());
+            CHECK(layer.thin_places == 1);
+            continue;
+        }
+        if (diameter < 20100) continue;  // the polygon is a little narrower than its circle
+        REQUIRE(layer.paths.size() == 1);
+        CHECK(layer.thin_places == 0);
+        const ToolPath& path = layer.paths.front();
+        CHECK(2 * path.width >= Settings{}.nozzle);
+        CHECK(path.width > std::min(diameter, Settings{}.nozzle) - 2500);  // steps of d / 20
+        std::vector<Segment> track;
+        append_segments(path, track);
+        CHECK(distance(track, segments({pin})) >= static_cast<double>(path.width) / 2 - clipper);
+        TrackSettings none;
+        none.thin_walls = false;
+        if (diameter < 40000) CHECK(shell_paths({pin}, {}, Settings{}, 0, none).thin_places == 1);
+    }
+}
+
+TEST_CASE("inner first: an island without inner perimeters waits for none of another island") {
+    Settings settings;
+    settings.perimeters = 2;
+    TrackSettings tracks;
+    tracks.inner_first = true;
+    for (const Unit first : {Unit{0}, 11 * mm}) {
+        const Region outline{rectangle(first, 0, first + 10 * mm, 10 * mm),
+                             rectangle(10 * mm + 30000 - first, 0, 10 * mm + 90000 - first, 10 * mm)};
+        LayerPlan plan;
+        append_shell_paths(slice_of(outline), {}, settings, tracks, plan);
+        int inner = 0, outer = 0;
+        for (const PlannedTrack& track : plan.tracks) {
+            const TrackKind kind = track.paths.front().kind;
+            inner += kind == TrackKind::inner_perimeter, outer += kind == TrackKind::outer_perimeter;
+            if (track.after == no_stop) continue;
+            const auto island = [&](const PlannedTrack& t) {
+                return winding_number({outline[0]}, t.paths.front().points.front());
+            };
+            CHECK(island(track) == island(plan.tracks[track.after]));
+        }
+        CHECK(inner == 1);
+        CHECK(outer == 2);
+        const std::size_t tracks_in_all = plan.tracks.size();
+        CHECK(order_paths(std::move(plan), outline).paths.size() == tracks_in_all);
+    }
 }
 
 TEST_CASE("a thin wall with a small bump stays one track") {

@@ -413,6 +413,38 @@ TEST_CASE("layers are joined without a retraction where the way is short or insi
     CHECK(joint({45 * mm, 20 * mm}).first == 1);
 }
 
+TEST_CASE("tracks that touch at their ends: no retraction even where the way leaves the island, none of no length") {
+    // Two islands 0.1 mm apart, a track at the edge of each.
+    const Region outline{{{0, 0}, {10 * mm, 0}, {10 * mm, 10 * mm}, {0, 10 * mm}},
+                         {{10 * mm + 10000, 0}, {20 * mm, 0}, {20 * mm, 10 * mm}, {10 * mm + 10000, 10 * mm}}};
+    const auto ends = [&](Unit apart, int number) {
+        return layer_of({path_of(TrackKind::cover, {{5 * mm, 5 * mm}, {10 * mm - 10000, 5 * mm}}),
+                         path_of(TrackKind::cover, {{10 * mm - 10000 + apart, 5 * mm}, {15 * mm, 5 * mm}})},
+                        number);
+    };
+    const auto retractions = [&](Unit apart) {
+        const LayerPaths layer = ends(apart, 3);
+        const TravelMap map(outline, {}, layer);
+        CHECK(map.travel({10 * mm - 10000, 5 * mm}, {10 * mm - 10000 + apart, 5 * mm}, 0).leaves_island);
+        return gcode_layer(layer, map, {}, {}).statistics.retractions;
+    };
+    CHECK(retractions(40000) == 0);
+    CHECK(retractions(40001) == 1);
+
+    LayerPaths above = ends(40000, 4);
+    std::reverse(above.paths[1].points.begin(), above.paths[1].points.end());
+    std::swap(above.paths[0], above.paths[1]);
+    const LayerPaths below = ends(40000, 3);
+    const TravelMap map(outline, {}, above);
+    const LayerText lower = gcode_layer(below, TravelMap(outline, {}, below), {}, {}),
+                    upper = gcode_layer(above, map, {}, {});
+    PrintStatistics sum;
+    const std::string text = gcode_joint(&lower, upper, map, {}, {}, sum);
+    CHECK(sum.travels == 0);
+    CHECK(sum.retractions == 0);
+    CHECK(text.find(" X") == std::string::npos);
+}
+
 TEST_CASE("skirt and brim are printed before the first layer's tracks and nowhere inside them") {
     const Region outline{{{0, 0}, {10 * mm, 0}, {10 * mm, 10 * mm}, {0, 10 * mm}}};
     const LayerPaths layer =
@@ -458,6 +490,12 @@ TEST_CASE("external supports are printed by their own tool, retracted and primed
           std::string::npos);  // the header leaves T0
     LayerText empty;
     CHECK(gcode_joint(&empty, upper, map, {}, printer, statistics).find("\nT0\n") != std::string::npos);
+    // The first use of a tool primes what the header has retracted.
+    Settings both;
+    both.support = Support::both;
+    CHECK(changes(gcode_header(both, {}, printer, {}, "")) == std::vector<std::string>{"M83 ; T2", "G1 E- T0"});
+    CHECK(changes(gcode_header({}, {}, printer, {}, "")).empty());
     printer.support_extruder = 0;
     CHECK(changes(text_of(3).body).empty());
+    CHECK(changes(gcode_header(both, {}, printer, {}, "")).empty());
 }

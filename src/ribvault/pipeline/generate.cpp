@@ -66,7 +66,6 @@ public:
         job_.settings.check();
         job_.tracks.check(job_.settings.nozzle);
         check_printer(job_.printer);
-        thumbnail_sizes(job_.printer.thumbnails);
         check_outputs({job_.model}, {{"--output", job_.gcode}, {"--report", job_.report}, {"--mesh", job_.mesh},
                                      {"--layers", job_.layers}, {"--html", job_.html}});
         report_.version = RIBVAULT_VERSION;

@@ -118,6 +118,13 @@ std::string summary(const RunReport& r, const Job& job) {
               "warning   %ld places are too narrow for a track and not printed (%.2f mm2 in all); the report says on "
               "which layers\n",
               r.totals.thin_places, r.totals.thin_area_mm2);
+    const auto first = std::find_if(r.layers.begin(), r.layers.end(),
+                                    [](const LayerReport& layer) { return layer.extruded_mm3 > 0; });
+    if (first != r.layers.begin() && first != r.layers.end())
+        print(text,
+              "warning   nothing is printed on the lowest %ld layer%s, without room for a track: the print begins "
+              "in the air\n",
+              static_cast<long>(first - r.layers.begin()), first - r.layers.begin() == 1 ? "" : "s");
     if (r.totals.closings > 0)
         print(text, "warning   %ld gaps in open contours were closed; the report names them\n", r.totals.closings);
     print(text, "time      %.2f s on %d threads, %.0f MB\n", r.machine.seconds, r.machine.threads,

@@ -122,6 +122,13 @@ private:
         report_.filament_source = job_.filament_diameter ? "option" : print_.filaments.empty() ? "default" : "file";
         report_.read_seconds = seconds_since(start_);
         if (!print_.cut.empty()) job_.warn(report_.input_path + " is cut off: " + print_.cut + "; judged up to there");
+        if (!print_.layers.empty()) {
+            const double top = to_double(print_.layers.front().z),
+                         height = 1e-9 * static_cast<double>(print_.layers.front().height);
+            if (top > 2 * height)
+                job_.warn("the lowest layer begins " + std::to_string(top - height) +
+                          " mm over z = 0; it counts as lying on the bed all the same");
+        }
         if (print_.widths_computed > 0 && report_.filament_source == "default")
             job_.warn(
                 "widths are computed from E with filament of 1.75 mm, as the file names none; --filament-diameter says "

@@ -1,9 +1,8 @@
 #include "ribvault/print/drop_tiny_steps.hpp"
 
 namespace ribvault {
-namespace {
 
-void thin_out(ToolPath& path) {
+void drop_tiny_steps(ToolPath& path) {
     std::vector<Point>& points = path.points;
     std::vector<Point> kept{points.front()};
     for (std::size_t k = 1; k < points.size(); ++k)
@@ -19,11 +18,9 @@ void thin_out(ToolPath& path) {
     points = std::move(kept);
 }
 
-}  // namespace
-
 void drop_tiny_steps(LayerPlan& plan) {
     for (PlannedTrack& track : plan.tracks)
-        for (ToolPath& path : track.paths) thin_out(path);
+        for (ToolPath& path : track.paths) drop_tiny_steps(path);
 }
 
 }  // namespace ribvault

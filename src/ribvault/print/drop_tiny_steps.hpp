@@ -11,9 +11,11 @@ namespace ribvault {
 inline constexpr Unit shortest_step = 500;
 inline bool is_tiny_step(Point a, Point b) { return squared_length(b - a) < shortest_step * shortest_step; }
 
-/// Leaves out points of the plan's paths so that all steps are at least shortest_step long; the first and the last
-/// point of an open path stay. A path that is shorter than that as a whole becomes a dot at its first point. No point
-/// of a centre line moves farther than shortest_step: a choice, made before anything is proved about the print.
+/// Leaves out points of a path so that all steps are at least shortest_step long; the first and the last point of an
+/// open path stay. A path that is shorter than that as a whole becomes a dot at its first point. No point of a centre
+/// line moves farther than shortest_step: a choice, made before anything is proved about the print.
+void drop_tiny_steps(ToolPath& path);
+/// Of all paths of the plan.
 void drop_tiny_steps(LayerPlan& plan);
 
 }  // namespace ribvault

@@ -6,6 +6,7 @@
 
 #include "ribvault/error.hpp"
 #include "ribvault/print/gcode_text.hpp"
+#include "ribvault/print/thumbnail.hpp"
 
 namespace ribvault {
 namespace {
@@ -108,6 +109,10 @@ void check_printer(const PrinterSettings& printer) {
         std::snprintf(text, sizeof text, "%s is %g; it must lie between %g and %g", name, value, least, most);
         throw Error(ErrorKind::usage, text);
     };
+    need("bed's width (mm)", printer.bed_x, 1, to_mm(lattice_bound));
+    need("bed's depth (mm)", printer.bed_y, 1, to_mm(lattice_bound));
+    need("highest print (mm)", printer.bed_z, 1, to_mm(lattice_bound));
+    thumbnail_sizes(printer.thumbnails);
     need("filament diameter (mm)", printer.filament_diameter, 0.1, 20);
     need("nozzle temperature (°C)", printer.nozzle_temperature, 0, 1000);
     need("bed temperature (°C)", printer.bed_temperature, 0, 500);
@@ -183,9 +188,12 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
     if (printer.write_limits) text += limits_text(printer);
     text += fill_placeholders(start, "start_gcode", settings, printer, facts);
     text += "G21 ; millimetres\nG90 ; absolute coordinates\nM83 ; relative extrusion\n";
-    if (printer.retraction > 0)
-        text += "G1 E-" + decimal_text(printer.retraction) + " F" + decimal_text(printer.retraction_speed * 60) +
-                " ; the first layer starts retracted\n";
+    if (printer.retraction == 0) return text;
+    const std::string retract =
+        "G1 E-" + decimal_text(printer.retraction) + " F" + decimal_text(printer.retraction_speed * 60);
+    if (printer.support_extruder > 0 && settings.outside())
+        text += "T" + std::to_string(printer.support_extruder) + "\n" + retract + " ; so do the supports\nT0\n";
+    text += retract + " ; the first layer starts retracted\n";
     return text;
 }
 

@@ -40,10 +40,17 @@ double number(const std::string& list) {
     return value;
 }
 
+int whole(const std::string& list) {
+    const double value = number(list);
+    if (value != std::floor(value) || std::fabs(value) > 1e6)
+        throw Error(ErrorKind::usage, "'" + first_of(list) + "' is not a whole number");
+    return static_cast<int>(value);
+}
+
 Unit length_in(const std::string& list) {
     const std::string text = first_of(list);
     if (text.find('%') != std::string::npos) throw Ignored{"a percentage"};
-    return parse_length(text, "");
+    return parse_length(text, "length");
 }
 
 void take_bed(PrinterSettings& printer, const std::string& shape) {
@@ -108,10 +115,10 @@ Field printer_number(double PrinterSettings::*member) {
     return [member](Target to, const std::string& v) { to.p.*member = number(v); };
 }
 Field temperature(int PrinterSettings::*member) {
-    return [member](Target to, const std::string& v) { to.p.*member = static_cast<int>(std::lround(number(v))); };
+    return [member](Target to, const std::string& v) { to.p.*member = whole(v); };
 }
 Field count(int Settings::*member) {
-    return [member](Target to, const std::string& v) { to.s.*member = static_cast<int>(std::lround(number(v))); };
+    return [member](Target to, const std::string& v) { to.s.*member = whole(v); };
 }
 
 const std::map<std::string, Field>& fields() {
@@ -126,13 +133,18 @@ const std::map<std::string, Field>& fields() {
             {"bottom_solid_layers", count(&Settings::bottom_layers)},
             {"external_perimeters_first", [](Target to, const std::string& v) { to.t.inner_first = number(v) == 0; }},
             {"thin_walls", [](Target to, const std::string& v) { to.t.thin_walls = number(v) != 0; }},
-            {"skirts", [](Target to, const std::string& v) { to.t.skirt_loops = static_cast<int>(number(v)); }},
+            {"skirts", [](Target to, const std::string& v) { to.t.skirt_loops = whole(v); }},
             {"skirt_distance", [](Target to, const std::string& v) { to.t.skirt_distance = length_in(v); }},
             {"brim_width", [](Target to, const std::string& v) { to.t.brim_width = length_in(v); }},
+            {"brim_type",
+             [](Target, const std::string& v) {
+                 if (v != "no_brim" && v != "outer_only") throw Ignored{"brims lie around the outside here"};
+             }},
             {"first_layer_extrusion_width",
              [](Target to, const std::string& v) {
                  const Unit width = length_in(v);
                  if (width != 0 && width < to.s.nozzle) throw Ignored{"narrower than the nozzle"};
+                 if (width > 2 * to.s.nozzle) throw Ignored{"more than twice the nozzle"};
                  to.t.first_layer_width = width;
              }},
             {"seam_position",
@@ -203,10 +215,19 @@ const std::map<std::string, Field>& fields() {
     return all;
 }
 
-/// The entries of a section after those it inherits.
+/// What of a config or bundle counts, and which presets it names that it does not have: a bundle has the user's own
+/// presets, not PrusaSlicer's.
+struct Chosen {
+    std::vector<IniEntry> entries;
+    std::vector<std::string> missing;
+};
+
+/// Appends the entries of a section after those it inherits.
 void append_inherited(const std::vector<IniEntry>& all, const std::string& section, std::set<std::string>& visited,
-                      std::vector<IniEntry>& chosen) {
+                      Chosen& chosen) {
     if (!visited.insert(section).second) return;
+    if (std::none_of(all.begin(), all.end(), [&](const IniEntry& e) { return e.section == section; }))
+        chosen.missing.push_back(section);
     const std::string kind = section.substr(0, section.find(':') + 1);
     for (const IniEntry& e : all) {
         if (e.section != section || e.key != "inherits") continue;
@@ -218,17 +239,18 @@ void append_inherited(const std::vector<IniEntry>& all, const std::string& secti
         }
     }
     for (const IniEntry& e : all)
-        if (e.section == section && e.key != "inherits") chosen.push_back(e);
+        if (e.section == section && e.key != "inherits") chosen.entries.push_back(e);
 }
 
-std::vector<IniEntry> chosen_entries(const std::vector<IniEntry>& all) {
-    std::vector<IniEntry> chosen;
+Chosen chosen_entries(const std::vector<IniEntry>& all) {
+    Chosen chosen;
     for (const IniEntry& e : all)
-        if (e.section.empty()) chosen.push_back(e);
+        if (e.section.empty()) chosen.entries.push_back(e);
     for (const std::string kind : {"printer", "filament", "print"}) {
         std::string section;
         for (const IniEntry& e : all)
-            if (e.section.rfind(kind + ":", 0) == 0 && e.section.find('*') == std::string::npos) section = e.section;
+            if (e.section.rfind(kind + ":", 0) == 0 && e.section.find('*') == std::string::npos)
+                section = e.section;
         for (const IniEntry& e : all)
             if (e.section == "presets" && e.key == kind && !e.value.empty()) section = kind + ":" + e.value;
         std::set<std::string> visited;
@@ -242,8 +264,11 @@ std::vector<IniEntry> chosen_entries(const std::vector<IniEntry>& all) {
 ImportedConfig import_prusaslicer(std::string_view text, const std::string& name, Settings& settings,
                                   TrackSettings& tracks, PrinterSettings& printer) {
     std::map<std::string, IniEntry> last;  // a later entry replaces what was inherited
-    for (IniEntry& e : chosen_entries(read_ini(text, name))) last[e.key] = std::move(e);
+    Chosen chosen = chosen_entries(read_ini(text, name));
+    for (IniEntry& e : chosen.entries) last[e.key] = std::move(e);
     ImportedConfig imported;
+    for (const std::string& section : chosen.missing)
+        imported.ignored.push_back("[" + section + "] (named, but not in the file)");
     const auto take = [&](const std::string& key, const IniEntry& entry) {
         const auto field = fields().find(key);
         if (field == fields().end()) {
@@ -263,9 +288,18 @@ ImportedConfig import_prusaslicer(std::string_view text, const std::string& name
         take(nozzle->first, nozzle->second);  // others depend on it
     for (const auto& [key, entry] : last)
         if (key != "nozzle_diameter") take(key, entry);
+    if (const auto brim = last.find("brim_type"); brim != last.end() && brim->second.value == "no_brim")
+        tracks.brim_width = 0;
     if (imported.taken.empty())
         throw Error(ErrorKind::usage, name + ": no setting that we know; is it a PrusaSlicer config or bundle?");
-    if (!last.contains("name")) printer.name = "imported from PrusaSlicer";
+    printer.name = "imported from PrusaSlicer";
+    // What cannot be is said with the file's name: the option that the message may name was not given.
+    try {
+        tracks.check(settings.nozzle);
+        check_printer(printer);
+    } catch (const Error& error) {
+        throw Error(ErrorKind::usage, name + ": " + error.what());
+    }
     return imported;
 }
 

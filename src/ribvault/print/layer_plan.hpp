@@ -11,7 +11,7 @@ namespace ribvault {
 struct PlannedTrack {
     std::vector<ToolPath> paths;      ///< at least one; all of one stage (print/order_paths.hpp)
     Entry entry = Entry::fixed;       ///< where the nozzle may enter it
-    std::size_t after = no_stop;      ///< the track of the plan, of the same stage, that must be printed earlier
+    std::size_t after = no_stop;  ///< the track of the plan, of the same stage and island, that must be printed earlier
 };
 
 /// All tracks of layer i. print/order_paths.hpp makes LayerPaths of it.

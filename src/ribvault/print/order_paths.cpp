@@ -92,7 +92,7 @@ void append(PlannedTrack& track, std::size_t way, LayerPaths& layer) {
 
 /// A short way through the tracks of one stage.
 std::vector<Visit> tour_of(const LayerPlan& plan, const Tracks& tracks, Point from, std::optional<Point> to) {
-    std::vector<std::size_t> number(tracks.empty() ? 0 : 1 + *std::max_element(tracks.begin(), tracks.end()));
+    std::vector<std::size_t> number(plan.tracks.size(), no_stop);
     for (std::size_t k = 0; k < tracks.size(); ++k) number[tracks[k]] = k;
     std::vector<TourStop> stops;
     for (std::size_t t : tracks) {

@@ -20,7 +20,7 @@ PrintStage stage_of(TrackKind kind);
 /// an odd one begins where it would end itself if it were even; that ends at the seam, near which the next even one
 /// begins. Without it every layer begins at the seam, and ends as near to it as its tracks allow. So no layer needs to
 /// know its neighbours, and layers can be ordered concurrently. Tracks are turned around or rotated as their `entry`
-/// allows. Deterministic. Precondition: `after` names tracks of the same stage and island.
+/// allows. Deterministic. An `after` in another stage or island does not count: these have their own order.
 LayerPaths order_paths(LayerPlan plan, const Region& outline, bool alternate = false);
 
 }  // namespace ribvault

@@ -80,7 +80,11 @@ Setter acceleration(double MotionLimits::*member) {
 const std::map<std::string, Setter>& keys() {
     using P = PrinterSettings;
     static const std::map<std::string, Setter> all{
-        {"name", [](P& p, const std::string& v) { p.name = v; }},
+        {"name",
+         [](P& p, const std::string& v) {
+             if (v.empty()) throw Refusal{"the printer has no name"};
+             p.name = v;
+         }},
         {"flavour",
          [](P& p, const std::string& v) {
              if (v == "marlin") p.flavour = Flavour::marlin;
@@ -149,13 +153,14 @@ PrinterSettings read_profile(std::string_view text, const std::string& name) {
         } catch (const Refusal& refusal) {
             refuse(refusal.why);
         } catch (const Error& error) {
-            refuse(error.what());
+            const std::string why = error.what(), prefix = entry.key + ": ";
+            refuse(why.starts_with(prefix) ? why.substr(prefix.size()) : why);
         }
         last = entry.line;
     }
     for (const char* key : {"nozzle_temperature", "bed_temperature"})
         if (!seen.contains(key))
-            throw Error(ErrorKind::usage, name + ":" + std::to_string(last) + ": " + key +
+            throw Error(ErrorKind::usage, name + ":" + (last > 0 ? std::to_string(last) + ": " : " ") + key +
                                               ": missing up to the end of the profile; add '" + key +
                                               " = ...' (degrees C)");
     return printer;

@@ -1,8 +1,10 @@
 #include "ribvault/print/shell_paths.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "ribvault/print/cover_lines.hpp"
+#include "ribvault/print/islands.hpp"
 #include "ribvault/print/medial_tracks.hpp"
 #include "ribvault/print/simplify.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
@@ -57,31 +59,58 @@ void put_seam_first(Contour& ring, Seam seam) {
     std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(best), ring.end());
 }
 
-/// The perimeters by ring, j = 0 outermost, as numbers of tracks in the plan.
+PlannedTrack dot(Point at, Unit width) {
+    return {{{TrackKind::thin_wall, width, false, {at}}}, Entry::fixed, no_stop};
+}
+
+/// The perimeters by ring, j = 0 outermost, each after its neighbour of the same island, if that has one. Where a ring
+/// is hardly longer than a point there is room for a dot.
 void append_perimeters(const Region& outermost, Unit w, const Settings& settings, const TrackSettings& tracks,
                        const Region& outline, LayerPlan& plan) {
     const double width = static_cast<double>(w);
-    std::vector<std::vector<std::size_t>> rings;
+    const Islands islands(outline);
+    struct Ring {
+        std::size_t track, island;
+    };
+    std::vector<std::vector<Ring>> rings;
     for (int j = 0; j < settings.perimeters; ++j) {
         rings.emplace_back();
         for (Contour& line : j == 0 ? Region(outermost) : mitred(outline, -(j + 0.5) * width)) {
             ToolPath path{j == 0 ? TrackKind::outer_perimeter : TrackKind::inner_perimeter, w, true, std::move(line)};
-            if (2 * length(path) < width) continue;
+            if (2 * length(path) < width) {
+                plan.tracks.push_back(dot(path.points.front(), w));
+                continue;
+            }
             put_seam_first(path.points, tracks.seam);
             const Entry entry = j == 0 && tracks.seam != Seam::nearest ? Entry::fixed : Entry::anywhere;
-            rings.back().push_back(plan.tracks.size());
+            rings.back().push_back({plan.tracks.size(), islands.of(path.points.front())});
             plan.tracks.push_back({{std::move(path)}, entry, no_stop});
         }
     }
     if (tracks.inner_first) std::reverse(rings.begin(), rings.end());
     for (std::size_t j = 1; j < rings.size(); ++j)
-        for (std::size_t t : rings[j]) {
+        for (const Ring& ring : rings[j]) {
             double nearest = std::numeric_limits<double>::infinity();
-            const Point p = plan.tracks[t].paths.front().points.front();
-            for (std::size_t other : rings[j - 1])
-                if (const double far = distance(p, plan.tracks[other].paths.front().points); far < nearest)
-                    nearest = far, plan.tracks[t].after = other;
+            PlannedTrack& track = plan.tracks[ring.track];
+            const Point p = track.paths.front().points.front();
+            for (const Ring& other : rings[j - 1]) {
+                if (other.island != ring.island) continue;
+                if (const double far = distance(p, plan.tracks[other.track].paths.front().points); far < nearest)
+                    nearest = far, track.after = other.track;
+            }
         }
+}
+
+/// The widest dot that a piece has room for, in steps of a twentieth of d; nothing when that is less than half as wide.
+std::optional<PlannedTrack> widest_dot(const Region& piece, Unit w) {
+    const Unit step = w / 20;
+    std::optional<PlannedTrack> found;
+    for (Unit width = (w / 2 + step - 1) / step * step; 2 * width <= 3 * w; width += step) {
+        const Region room = mitred(piece, -static_cast<double>(width) / 2);
+        if (room.empty()) break;
+        found = dot(room.front().front(), width);
+    }
+    return found;
 }
 
 void append_thin_walls(const Region& outline, const Region& outermost, Unit w, bool printed, LayerPlan& plan) {
@@ -94,6 +123,8 @@ void append_thin_walls(const Region& outline, const Region& outermost, Unit w, b
         if (area < smallest) continue;
         std::vector<PlannedTrack> walls;
         if (printed && area >= width * width / 2) walls = medial_tracks(piece, w, TrackKind::thin_wall);
+        if (printed && walls.empty())
+            if (std::optional<PlannedTrack> dot = widest_dot(piece, w)) walls.push_back(std::move(*dot));
         if (walls.empty()) ++plan.thin_places, plan.thin_area += area;
         std::move(walls.begin(), walls.end(), std::back_inserter(plan.tracks));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ribvault/print/drop_tiny_steps.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
 
 namespace ribvault {
@@ -59,6 +60,7 @@ std::vector<ToolPath> skirt_and_brim(const Region& object, const Settings& setti
             append_loops(hull, brim * width + static_cast<double>(tracks.skirt_distance) + (k + 0.5) * width, w, paths);
     }
     for (int k = brim; k-- > 0;) append_loops(outline, (k + 0.5) * width, w, paths);
+    for (ToolPath& path : paths) drop_tiny_steps(path);
     return paths;
 }
 

@@ -74,8 +74,8 @@ std::vector<std::array<int, 2>> thumbnail_sizes(const std::string& text) {
         if (const std::size_t slash = part.find('/'); slash != std::string::npos) part.resize(slash);
         int width = 0, height = 0;
         char rest = 0;
-        if (std::sscanf(part.c_str(), " %dx%d %c", &width, &height, &rest) != 2 || width < 1 || height < 1 ||
-            width > 1000 || height > 1000)
+        if (part.size() > 11 || std::sscanf(part.c_str(), " %dx%d %c", &width, &height, &rest) != 2 || width < 1 ||
+            height < 1 || width > 1000 || height > 1000)
             throw Error(ErrorKind::usage,
                         "thumbnails: '" + part + "' is no size; write for example 220x124, sides up to 1000");
         sizes.push_back({width, height});

@@ -149,8 +149,8 @@ bool touch(TrackEnd a, TrackEnd b) { return 2 * length(b.at - a.at) <= static_ca
 
 bool must_retract(const Travel& way, TrackEnd from, TrackEnd to, const PrinterSettings& printer) {
     if (from.tool != to.tool) return true;
-    if (way.leaves_island) return true;
-    return !touch(from, to) && way.open_air > printer.retract_over * static_cast<double>(units_per_mm);
+    if (touch(from, to)) return false;
+    return way.leaves_island || way.open_air > printer.retract_over * static_cast<double>(units_per_mm);
 }
 
 double speed_of(const ToolPath& path, int layer, const PrinterSettings& printer) {
@@ -219,7 +219,7 @@ LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Setti
             Travel way = map.travel(end.at, start.at, longest_detour(printer));
             // Between skirt and object, and along them, nothing keeps the nozzle inside.
             if (path.kind == TrackKind::skirt || previous->kind == TrackKind::skirt)
-                way = {{start.at}, length(start.at - end.at), !touch(end, start), 0};
+                way = {{start.at}, length(start.at - end.at), true, 0};
             const bool retracts = must_retract(way, end, start, printer);
             if (retracts) writer.retract();
             if (end.tool != start.tool) writer.change_tool(start.tool);
@@ -272,7 +272,8 @@ std::string gcode_joint(const LayerText* below, const LayerText& layer, const Tr
         const int tool = knows_start ? below->last->tool : 0;
         if (layer.first->tool != tool || (below && !knows_start && printer.support_extruder > 0))
             writer.change_tool(layer.first->tool);
-        writer.travel(knows_start ? below->last->at : layer.first->at, way);
+        if (!knows_start || below->last->at != layer.first->at)
+            writer.travel(knows_start ? below->last->at : layer.first->at, way);
         if (retracted) writer.prime(layer.surplus);
     }
     writer.statistics.seconds = motion_seconds(writer.moves, printer.limits);
