@@ -22,7 +22,8 @@ struct Written {
     std::string strategy = "paper", narrow_bonus;
     bool no_shrink = false, no_trim = false, no_doubling = false;
     bool no_straighten = false, no_branch_bonus = false, quiet = false;
-    std::string rotate, up = "z", imported;
+    std::string rotate, up = "z";
+    std::string imported_from, imported;  ///< the file; what was taken from it, for people
 };
 
 std::uint64_t parse_seed(const std::string& text) {
@@ -220,7 +221,16 @@ int run(Written& w) {
         choosing(done, total);
         if (done == total) choosing.clear();
     };
-    const RunReport report = generate(w.job);
+    const RunReport report = [&] {
+        try {
+            return generate(w.job);
+        } catch (const Error& error) {
+            // The message may name an option that nobody gave.
+            if (error.kind() != ErrorKind::usage || w.imported_from.empty()) throw;
+            throw Error(error.kind(),
+                        std::string(error.what()) + " (settings were imported from " + w.imported_from + ")");
+        }
+    }();
     if (!w.quiet) std::fputs(summary(report, w.job).c_str(), stdout);
     // The paper's gaps are the user's choice; the report says what hangs because of them.
     return report.verdict.proved && (report.verdict.print_proved || w.job.settings.gaps == Gaps::paper) ? 0 : 1;
@@ -241,7 +251,8 @@ std::function<int()> add_generate(CLI::App& app) {
     add_output(command, "--html", written->html, "page to look at the whole run, in one file");
     command->add_option("--threads", written->job.threads, "0: all processors")->check(CLI::Range(0, 1024));
     command->add_flag("--quiet", written->quiet, "print errors only");
-    add_profiles(command, written->job, written->first_layer_height, written->imported);
+    add_profiles(command, written->job, written->first_layer_height, written->imported_from,
+                 written->imported);
     add_geometry(command, *written);
     add_tracks(command, written->job.tracks);
     add_placement(command, *written);

@@ -36,7 +36,8 @@ std::string import(const std::string& file, Job& job, std::optional<Unit>& first
 
 }  // namespace
 
-void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_height, std::string& imported) {
+void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_height, std::string& from,
+                  std::string& imported) {
     std::string names;
     for (const BuiltinProfile& profile : builtin_profiles()) (names += names.empty() ? "" : ", ") += profile.name;
     const auto printer = command
@@ -49,7 +50,8 @@ void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_
         "a printer profile (docs/printing.md)")->type_name("FILE")->excludes(printer);
     command->add_option_function<std::string>(
         "--import",
-        [&job, &first_layer_height, &imported](const std::string& file) {
+        [&job, &first_layer_height, &from, &imported](const std::string& file) {
+            from = file;
             imported = import(file, job, first_layer_height);
         },
         "a PrusaSlicer config or bundle (.ini)")->type_name("FILE")->excludes(printer)->excludes(profile);

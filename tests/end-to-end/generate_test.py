@@ -76,7 +76,9 @@ class Generate(unittest.TestCase):
     def test_layers_higher_than_tracks_are_wide_are_warned_about(self):
         for height, said in (("0.4", False), ("0.5", True)):
             done = self.run_program(CUBE, "-o", "a.gcode", "--layer-height", height)
-            self.assertEqual((done.returncode, "higher than tracks are wide" in done.stderr), (0, said), done.stderr)
+            self.assertEqual((done.returncode, done.stderr.count("more than its tracks are wide")), (0, 2 * said), done.stderr)
+        done = self.run_program(CUBE, "-o", "a.gcode", "--first-layer-height", "0.5", "--first-layer-width", "0.6")
+        self.assertNotIn("more than its tracks are wide", done.stderr)
 
     def test_quiet_says_nothing(self):
         done = self.run_program(CUBE, "-o", "a.gcode", "--quiet")

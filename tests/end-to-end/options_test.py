@@ -1,4 +1,4 @@
-"""docs/options.md is true: every option stands in it, ranges end where it says, and what has no effect is refused."""
+"""docs/options.md: every option stands in it, ranges end where it says, names are those it gives, and what it says to be refused is."""
 import decimal
 import os
 import pathlib
@@ -23,7 +23,7 @@ def options_of(command):
 
 
 def rows():
-    """Option, value and default of every line of the page's tables."""
+    """Option and value of every line of the page's tables."""
     for line in PAGE.splitlines():
         if row := re.match(r"\| `(?:-\w,)?(--[a-z-]+)[^`]*` \| (.*?) \|", line):
             yield row.groups()
@@ -59,7 +59,7 @@ class Options(unittest.TestCase):
     def test_every_option_stands_on_the_page(self):
         self.assertEqual({name for name, _ in rows()}, options_of("generate"))
         text = (ROOT / "docs/verify-command.md").read_text()
-        self.assertEqual({o for o in options_of("verify") if o not in text}, set())
+        self.assertEqual({o for o in options_of("verify") if not re.search(o + r"(?![a-z-])", text)}, set())
 
     def test_ranges_end_where_the_page_says(self):
         checked = 0

@@ -109,6 +109,8 @@ class Printing(unittest.TestCase):
         self.assertIn("lowest %s layers" % first.group(1), done.stdout)
         done = subprocess.run([PROGRAM, "verify", "a.gcode"], cwd=self.folder, capture_output=True, text=True)
         self.assertIn("mm over z = 0", done.stderr)
+        done = subprocess.run([PROGRAM, "generate", "tip.off", "-o", "a.gcode", "--skirt", "2"], cwd=self.folder, capture_output=True, text=True)
+        self.assertIn("the print begins in the air", done.stdout)
         self.gcode()
         done = subprocess.run([PROGRAM, "verify", "a.gcode"], cwd=self.folder, capture_output=True, text=True)
         self.assertNotIn("over z = 0", done.stderr)
@@ -121,6 +123,13 @@ class Printing(unittest.TestCase):
         settings = json.loads((self.folder / "a.json").read_text())["settings"]
         self.assertEqual(settings["layer_height_mm"], 0.3)
         self.assertEqual(settings["perimeters"], 1)
+        (self.folder / "prusa.ini").write_text("perimeters = 0\nthumbnails = big\n")
+        done = self.run_program("--import", "prusa.ini", "--thumbnails", "none")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("imported from prusa.ini", done.stderr)
+        self.assertEqual(self.run_program("--import", "prusa.ini", "--thumbnails", "none", "--perimeters", "1").returncode, 0)
+        done = self.run_program("--import", "prusa.ini", "--thumbnails", "none", "--perimeters", "1", "--quiet")
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
 
     def test_the_bed_is_checked_with_skirt_and_brim(self):
         self.assertEqual(self.run_program("--bed", "24,24,30").returncode, 0)

@@ -125,9 +125,13 @@ private:
                                                      std::to_string(report_.input.size_mm[2]) +
                                                      " mm high; scale it up or use thinner layers");
         const Settings& settings = job_.settings;
-        if (const Unit h = std::max(settings.layer_height, settings.first_layer_height); h > settings.nozzle)
-            job_.warn("layers of " + std::to_string(to_mm(h)) + " mm are higher than tracks are wide (--nozzle, " +
-                      std::to_string(to_mm(settings.nozzle)) + " mm): such tracks do not stick to the layer below");
+        const auto compare = [&](const char* what, Unit height, Unit width) {
+            if (height > width)
+                job_.warn(what + std::to_string(to_mm(height)) + " mm high, more than its tracks are wide (" +
+                          std::to_string(to_mm(width)) + " mm): such tracks hardly stick to what is below");
+        };
+        compare("the first layer is ", settings.first_layer_height, job_.tracks.width_on(0, settings.nozzle));
+        if (slicer.layer_count() > 1) compare("a layer is ", settings.layer_height, settings.nozzle);
         if (report_.input.closed()) return;
         job_.warn(job_.model.string() + ": the mesh is not closed (" + std::to_string(report_.input.boundary_edges) +
                   " boundary edges); its slices are closed over gaps up to --max-gap");
@@ -234,6 +238,7 @@ private:
         r.slenderness = worst.ratio, r.slender_at = {to_mm(worst.at.x), to_mm(worst.at.y)};
         r.slender_standing_mm = worst.standing / units_per_mm, r.slender_to_root_mm = worst.to_root / units_per_mm;
         r.closings = layer.closings;
+        r.empty = paths.paths.empty();
 
         from = Time::now();
         if (job_.svg) {

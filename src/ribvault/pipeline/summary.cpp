@@ -119,7 +119,7 @@ std::string summary(const RunReport& r, const Job& job) {
               "which layers\n",
               r.totals.thin_places, r.totals.thin_area_mm2);
     const auto first = std::find_if(r.layers.begin(), r.layers.end(),
-                                    [](const LayerReport& layer) { return layer.extruded_mm3 > 0; });
+                                    [](const LayerReport& layer) { return !layer.empty; });
     if (first != r.layers.begin() && first != r.layers.end())
         print(text,
               "warning   nothing is printed on the lowest %ld layer%s, without room for a track: the print begins "

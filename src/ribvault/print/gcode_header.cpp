@@ -191,7 +191,7 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
     if (printer.retraction == 0) return text;
     const std::string retract =
         "G1 E-" + decimal_text(printer.retraction) + " F" + decimal_text(printer.retraction_speed * 60);
-    if (printer.support_extruder > 0 && settings.outside())
+    if (heats_tool)  // else start G-code does, and only that knows when it is hot
         text += "T" + std::to_string(printer.support_extruder) + "\n" + retract + " ; so do the supports\nT0\n";
     text += retract + " ; the first layer starts retracted\n";
     return text;

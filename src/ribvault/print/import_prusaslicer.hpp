@@ -22,7 +22,8 @@ struct ImportedConfig {
 /// section names, otherwise the last of each kind ([print:...], [filament:...], [printer:...]) whose name has no stars;
 /// what they inherit from other presets of the bundle comes first. Start and end G-code are taken with the placeholders
 /// that we know translated; with others or with expressions they are ignored. Throws Error (usage) with name, line and
-/// key when a value that we know is no number, or when nothing is known.
+/// key when a value that we know is no number, or when nothing is known. Whether the settings can be is not checked
+/// here: options may still replace them.
 ImportedConfig import_prusaslicer(std::string_view text, const std::string& name, Settings& settings,
                                   TrackSettings& tracks, PrinterSettings& printer);
 

@@ -20,8 +20,7 @@ PerimeterRows::PerimeterRows(const LayerPaths& layer, Unit clearance) : clearanc
     std::vector<Segment> segments;
     for (const ToolPath& path : layer.paths) {
         if (path.kind == TrackKind::cover || is_support(path.kind)) continue;
-        for (std::size_t i = 0, n = path.points.size(); i + (path.closed ? 0 : 1) < n; ++i)
-            segments.push_back({path.points[i], path.points[(i + 1) % n]});
+        append_segments(path, segments);
     }
     rows_ = SegmentRows(segments, clearance);
 }

@@ -1,6 +1,7 @@
 #include "ribvault/print/shell_paths.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <optional>
 
 #include "ribvault/print/cover_lines.hpp"
@@ -64,7 +65,7 @@ PlannedTrack dot(Point at, Unit width) {
 }
 
 /// The perimeters by ring, j = 0 outermost, each after its neighbour of the same island, if that has one. Where a ring
-/// is hardly longer than a point there is room for a dot.
+/// is hardly longer than a point there is room for a dot, if nothing is printed there already.
 void append_perimeters(const Region& outermost, Unit w, const Settings& settings, const TrackSettings& tracks,
                        const Region& outline, LayerPlan& plan) {
     const double width = static_cast<double>(w);
@@ -73,12 +74,13 @@ void append_perimeters(const Region& outermost, Unit w, const Settings& settings
         std::size_t track, island;
     };
     std::vector<std::vector<Ring>> rings;
+    std::vector<Point> specks;
     for (int j = 0; j < settings.perimeters; ++j) {
         rings.emplace_back();
         for (Contour& line : j == 0 ? Region(outermost) : mitred(outline, -(j + 0.5) * width)) {
             ToolPath path{j == 0 ? TrackKind::outer_perimeter : TrackKind::inner_perimeter, w, true, std::move(line)};
             if (2 * length(path) < width) {
-                plan.tracks.push_back(dot(path.points.front(), w));
+                specks.push_back(path.points.front());
                 continue;
             }
             put_seam_first(path.points, tracks.seam);
@@ -86,6 +88,12 @@ void append_perimeters(const Region& outermost, Unit w, const Settings& settings
             rings.back().push_back({plan.tracks.size(), islands.of(path.points.front())});
             plan.tracks.push_back({{std::move(path)}, entry, no_stop});
         }
+    }
+    for (const Point speck : specks) {
+        const auto covers = [&](const PlannedTrack& track) {
+            return distance(speck, track.paths.front().points) < 0.75 * width;
+        };
+        if (std::none_of(plan.tracks.begin(), plan.tracks.end(), covers)) plan.tracks.push_back(dot(speck, w));
     }
     if (tracks.inner_first) std::reverse(rings.begin(), rings.end());
     for (std::size_t j = 1; j < rings.size(); ++j)
@@ -123,9 +131,14 @@ void append_thin_walls(const Region& outline, const Region& outermost, Unit w, b
         if (area < smallest) continue;
         std::vector<PlannedTrack> walls;
         if (printed && area >= width * width / 2) walls = medial_tracks(piece, w, TrackKind::thin_wall);
+        double left = walls.empty() ? area : 0;
         if (printed && walls.empty())
-            if (std::optional<PlannedTrack> dot = widest_dot(piece, w)) walls.push_back(std::move(*dot));
-        if (walls.empty()) ++plan.thin_places, plan.thin_area += area;
+            if (std::optional<PlannedTrack> dot = widest_dot(piece, w)) {
+                const auto across = static_cast<double>(dot->paths.front().width);
+                left = std::max(0.0, area - std::numbers::pi / 4 * across * across);
+                walls.push_back(std::move(*dot));
+            }
+        if (2 * left > area) ++plan.thin_places, plan.thin_area += left;
         std::move(walls.begin(), walls.end(), std::back_inserter(plan.tracks));
     }
 }

@@ -11,10 +11,13 @@ namespace ribvault {
 ///
 /// Perimeters: closed tracks of width w whose centre lines run at distance (j + 1/2) w inside O_i (`slice.rounded`),
 /// j = 0 .. p - 1; corners are mitred up to twice the distance. Each comes after the one beside it that is nearer to
-/// the outside (with `inner_first`: to the inside). Outer ones start where `tracks.seam` says, inner ones anywhere.
+/// the outside (with `inner_first`: to the inside), if its island has one. Outer ones start where `tracks.seam` says,
+/// inner ones anywhere. In place of a ring shorter than w / 2 there is a dot (TrackKind::thin_wall), unless another
+/// perimeter or dot comes within 3/4 w of it.
 ///
 /// Thin walls: what of O_i no outer perimeter fills because it is narrower than w gets medial_tracks where it is at
-/// least w / 2 wide. Places still narrower are counted in the plan with their area, as are all without
+/// least w / 2 wide, or, where there is room for none, the widest dot that it has room for. Places still narrower, and
+/// what a dot leaves where that is more than half, are counted in the plan with their area, as are all without
 /// `tracks.thin_walls`.
 ///
 /// Gaps: strips of the shell between perimeters, covers and cavity that are too narrow for a cover get medial_tracks

@@ -272,7 +272,7 @@ std::string gcode_joint(const LayerText* below, const LayerText& layer, const Tr
         const int tool = knows_start ? below->last->tool : 0;
         if (layer.first->tool != tool || (below && !knows_start && printer.support_extruder > 0))
             writer.change_tool(layer.first->tool);
-        if (!knows_start || below->last->at != layer.first->at)
+        if (!knows_start || below->last->at != layer.first->at || below->last->tool != layer.first->tool)
             writer.travel(knows_start ? below->last->at : layer.first->at, way);
         if (retracted) writer.prime(layer.surplus);
     }

@@ -56,6 +56,7 @@ struct LayerReport {
                                 ///< or on a layer of the gap above
     double patch_length_mm = 0;
     std::vector<GapClosing> closings;
+    bool empty = false;  ///< nothing is printed on it but skirt and brim
 };
 
 /// Sums over the layers.
