@@ -125,13 +125,13 @@ private:
                                                      std::to_string(report_.input.size_mm[2]) +
                                                      " mm high; scale it up or use thinner layers");
         const Settings& settings = job_.settings;
-        const auto compare = [&](const char* what, Unit height, Unit width) {
+        const auto warn_if_higher = [&](const char* what, Unit height, Unit width) {
             if (height > width)
                 job_.warn(what + std::to_string(to_mm(height)) + " mm high, more than its tracks are wide (" +
                           std::to_string(to_mm(width)) + " mm): such tracks hardly stick to what is below");
         };
-        compare("the first layer is ", settings.first_layer_height, job_.tracks.width_on(0, settings.nozzle));
-        if (slicer.layer_count() > 1) compare("a layer is ", settings.layer_height, settings.nozzle);
+        warn_if_higher("the first layer is ", settings.first_layer_height, job_.tracks.width_on(0, settings.nozzle));
+        if (slicer.layer_count() > 1) warn_if_higher("a layer is ", settings.layer_height, settings.nozzle);
         if (report_.input.closed()) return;
         job_.warn(job_.model.string() + ": the mesh is not closed (" + std::to_string(report_.input.boundary_edges) +
                   " boundary edges); its slices are closed over gaps up to --max-gap");

@@ -69,7 +69,8 @@ PlannedTrack dot(Point at, Unit width) {
 void append_perimeters(const Region& outermost, Unit w, const Settings& settings, const TrackSettings& tracks,
                        const Region& outline, LayerPlan& plan) {
     const double width = static_cast<double>(w);
-    const Islands islands(outline);
+    std::optional<Islands> islands;  // where rings have neighbours
+    if (settings.perimeters > 1) islands.emplace(outline);
     struct Ring {
         std::size_t track, island;
     };
@@ -85,7 +86,7 @@ void append_perimeters(const Region& outermost, Unit w, const Settings& settings
             }
             put_seam_first(path.points, tracks.seam);
             const Entry entry = j == 0 && tracks.seam != Seam::nearest ? Entry::fixed : Entry::anywhere;
-            rings.back().push_back({plan.tracks.size(), islands.of(path.points.front())});
+            rings.back().push_back({plan.tracks.size(), islands ? islands->of(path.points.front()) : 0});
             plan.tracks.push_back({{std::move(path)}, entry, no_stop});
         }
     }
@@ -131,13 +132,15 @@ void append_thin_walls(const Region& outline, const Region& outermost, Unit w, b
         if (area < smallest) continue;
         std::vector<PlannedTrack> walls;
         if (printed && area >= width * width / 2) walls = medial_tracks(piece, w, TrackKind::thin_wall);
-        double left = walls.empty() ? area : 0;
-        if (printed && walls.empty())
-            if (std::optional<PlannedTrack> dot = widest_dot(piece, w)) {
+        double left = 0;  // not printed
+        if (walls.empty()) {
+            left = area;
+            if (std::optional<PlannedTrack> dot = printed ? widest_dot(piece, w) : std::nullopt) {
                 const auto across = static_cast<double>(dot->paths.front().width);
                 left = std::max(0.0, area - std::numbers::pi / 4 * across * across);
                 walls.push_back(std::move(*dot));
             }
+        }
         if (2 * left > area) ++plan.thin_places, plan.thin_area += left;
         std::move(walls.begin(), walls.end(), std::back_inserter(plan.tracks));
     }
