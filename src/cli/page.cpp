@@ -18,8 +18,17 @@ struct Written {
     bool quiet = false;
 };
 
-int run(const Written& w) {
+/// The first option of the groups that add_rules makes which was given; empty: none.
+std::string rule_given(const CLI::App& command) {
+    for (const CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; }))
+        for (const CLI::Option* option : group->get_options())
+            if (option->count() > 0) return option->get_name();
+    return {};
+}
+
+int run(const Written& w, const CLI::App& command) {
     PageJob job;
+    job.rule_given = rule_given(command);
     job.runs.assign(w.runs.begin(), w.runs.end());
     job.page = w.page;
     job.rules = w.rules;
@@ -51,7 +60,7 @@ std::function<int()> add_page(CLI::App& app) {
     add_rules(command, written->rules);
     command->add_option("--threads", written->rules.threads, "0: all processors")->check(CLI::Range(0, 1024));
     command->add_flag("--quiet", written->quiet, "print errors only");
-    return [written] { return run(*written); };
+    return [written, command] { return run(*written, *command); };
 }
 
 }  // namespace ribvault::cli

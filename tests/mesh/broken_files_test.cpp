@@ -23,7 +23,7 @@ const Refusal refusals[] = {
     {"bad_transform.3mf", ErrorKind::unreadable, ", 3D/3dmodel.model: ", "not twelve numbers"},
     {"binary.off", ErrorKind::unreadable, ", line 1: ", "binary OFF is not read"},
     {"broken_xml.3mf", ErrorKind::unreadable, ", 3D/3dmodel.model, byte 433: ", "the XML is broken"},
-    {"empty_build.3mf", ErrorKind::bad_geometry, ": ", "no triangles"},
+    {"empty_build.3mf", ErrorKind::bad_geometry, ", 3D/3dmodel.model: ", "has no <item>"},
     {"endless_components.3mf", ErrorKind::unreadable, ", 3D/3dmodel.model: ", "nested without end"},
     {"flat.off", ErrorKind::bad_geometry, ": ", "no volume, all its points have the same z"},
     {"four_billion.ply", ErrorKind::unreadable, ", byte 226: ", "ends before all declared elements"},

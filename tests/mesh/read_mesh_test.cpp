@@ -192,6 +192,18 @@ TEST_CASE("3MF: build items, components, transforms, units, other parts") {
                       "<item objectid=\"1\"/><item objectid=\"2\" transform=\"1 0 0 0 1 0 0 0 1 9 0 0\"/>")}});
         CHECK(mesh.triangles.cols() == 12);
     }
+    SECTION("items that the user has switched off are left out") {
+        const auto with = [&](const char* first, const char* second) {
+            const std::string item = "<item objectid=\"1\" printable=\"";
+            return read({{"3D/3dmodel.model", model_xml("<object id=\"1\">" + unit_cube + "</object>",
+                                                        item + first + "\"/>" + item + second +
+                                                            "\" transform=\"1 0 0 0 1 0 0 0 1 9 0 0\"/>")}});
+        };
+        CHECK(with("1", "1").triangles.cols() == 24);
+        CHECK(with("1", "0").triangles.cols() == 12);
+        CHECK_THROWS_WITH(with("0", "0"),
+                          Catch::Matchers::Contains("all items of the <build> are marked as not printable"));
+    }
     SECTION("the relations name the model, the production extension names further parts") {
         const Mesh mesh = read(
             {{"_rels/.rels", "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">"

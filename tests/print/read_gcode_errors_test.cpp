@@ -24,6 +24,12 @@ TEST_CASE("malformed lines: which line, and what was expected", "[gcode][errors]
     CHECK_THAT(complaint(good + "G1 X.1234567890123456789 E1\n"),
                Contains("line 4") && Contains("more than 18 decimals"));
     CHECK_THAT(complaint(good + "G1 X1 {temperature}\n"), Contains("line 4") && Contains("'{temperature}'"));
+    CHECK_THAT(complaint(good + "X20 E1\n"), Contains("line 4") && Contains("expected G0 to G3"));
+    CHECK_THAT(complaint(good + "G90 G1 X20 E1\n"), Contains("line 4") && Contains("a second command"));
+    CHECK_THAT(complaint(good + "N7 G53 G1 X20 E1*12\n"), Contains("line 4") && Contains("a second command"));
+    for (const char* harmless :
+         {"EXCLUDE_OBJECT NAME=a\n", "M117 G1 X20\n", "G90 ; G1\n", "Z_TILT_ADJUST\n", "G29 G1\n"})
+        CHECK(read(good + harmless).layer_count == 1);
     CHECK_THAT(complaint(good + "G92 E-\n"), Contains("line 4") && Contains("number of E"));
     CHECK_THAT(complaint(good + std::string(200, ' ') + "\nG1 X1 \x01\x02 E1\n"),
                Contains("line 5") && Contains("'?? E1'"));
@@ -49,6 +55,7 @@ TEST_CASE("what is no G-code: one clear error", "[gcode][errors]") {
     CHECK_THAT(complaint("M83\nG1 X1 E1\n;TYPE:Custom\nG1 X2 E1\n"), Contains("nothing but start and custom"));
     CHECK_THAT(complaint(good + std::string(200, ' ') + std::string("G1 X1\0 E1\n", 10)), Contains("zero bytes"));
     CHECK_THAT(complaint(std::string("GCDE\1\0\0\0", 8)), Contains("binary G-code"));
+    CHECK_THAT(complaint("\n{\"schema\": \"ribvault-layers/1\"}\n"), Contains("JSON") && Contains("ribvault page"));
     CHECK_THAT(complaint("PK\3\4rest"), Contains("ZIP archive"));
     std::string rubbish;
     for (int k = 0; k < 5000; ++k) rubbish += static_cast<char>(1 + (k * 7919) % 255);

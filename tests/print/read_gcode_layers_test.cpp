@@ -36,6 +36,48 @@ TEST_CASE("heights follow the layers where no comment says them", "[gcode]") {
     CHECK(print.layers[2].below == std::vector<std::size_t>{1});
 }
 
+TEST_CASE("the lowest layer is as high as it lies over the bed, whatever the usual height", "[gcode]") {
+    const std::string moves = "M83\nG1 Z.3\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\n";
+    const GcodePrint cura =
+        read(";FLAVOR:Marlin\n;Layer height: 0.1\n;Generated with Cura_SteamEngine 4.13.0\n" + moves);
+    CHECK(height(cura.layers[0]) == Approx(0.3));
+    CHECK(cura.layers[0].tracks[0].width == read(moves).layers[0].tracks[0].width);
+    CHECK(height(read(moves + "; first_layer_height = 0.2\n").layers[0]) == Approx(0.2));
+    // Nothing on a bed is 5 mm high.
+    const std::string high = "M83\nG1 Z5\nG1 X10 E1\nG1 Z5.1\nG1 X0 E1\n";
+    CHECK(height(read(high + "; layer_height = 0.1\n").layers[0]) == Approx(0.1));
+}
+
+TEST_CASE("tops that differ by rounding are one layer", "[gcode]") {
+    const GcodePrint print =
+        read("M83\nG1 Z.2\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\nG1 X50\nG1 Z.201\nG1 X60 E1\nG1 Z.405\nG1 X50 E1\n");
+    REQUIRE(print.layers.size() == 2);
+    CHECK(heights_of_layers(print) == std::set<std::string>{"1/5", "2/5"});
+    for (const GcodeLayer& layer : print.layers) {
+        REQUIRE(layer.tracks.size() == 2);
+        const GcodeTrack& track = layer.tracks[1];
+        CHECK(to_double(layer.points[track.a].x + layer.points[track.b].x) == 110);
+    }
+    CHECK(read("M83\nG1 Z.2\nG1 X10 E1\nG1 Z.206\nG1 X0 E1\n").layers.size() == 2);
+}
+
+TEST_CASE("layers much thinner than most for want of heights in the file are counted", "[gcode]") {
+    std::string object = "M83\n", support;
+    for (int k = 1; k <= 8; ++k) {
+        object += "G1 Z" + std::to_string(0.2 * k) + "\nG1 X10 E1\nG1 X0\n";
+        if (k > 4) support += "G1 Z" + std::to_string(0.2 * k + 0.03) + "\nG1 X30\nG1 X40 E1\n";
+    }
+    CHECK(read(object).thin_layers == 0);
+    CHECK(read(object + support).thin_layers == 4);
+    CHECK(read(";TYPE:a\n;HEIGHT:0.2\n" + object + support).thin_layers == 0);
+}
+
+TEST_CASE("a climb of less than slicers round stays in its layer", "[gcode]") {
+    const std::string start = "M83\nG1 Z.2\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\n";
+    CHECK(read(start + "G1 X10 Z.4001 E1\n").layer_count == 2);
+    CHECK(read(start + "G1 X10 Z.41 E1\n").layer_count == 3);
+}
+
 TEST_CASE("variable layer height by comments", "[gcode]") {
     const GcodePrint print = corpus("prusa_slicer.gcode");
     REQUIRE(print.layers.size() == 2);

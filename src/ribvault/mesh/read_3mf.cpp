@@ -46,8 +46,22 @@ public:
         const Part& model = part(root);
         const pugi::xml_node build = child(model.root, "build");
         if (!build) fail(root, "the model has no <build>", "export the mesh again");
-        for (const pugi::xml_node& item : build.children())
-            if (local_name(item.name()) == "item") place(root, item, Eigen::Affine3d::Identity(), 0);
+        int items = 0, switched_off = 0;
+        for (const pugi::xml_node& item : build.children()) {
+            if (local_name(item.name()) != "item") continue;
+            ++items;
+            const std::string_view printable = attribute(item, "printable").value();  // PrusaSlicer's
+            if (printable == "0" || printable == "false")
+                ++switched_off;
+            else
+                place(root, item, Eigen::Affine3d::Identity(), 0);
+        }
+        if (items == 0)
+            file_.fail(ErrorKind::bad_geometry, root, "the <build> has no <item>: nothing is to be printed",
+                       "put an object on the plate and export again");
+        if (items == switched_off)
+            file_.fail(ErrorKind::bad_geometry, root, "all items of the <build> are marked as not printable",
+                       "mark one as printable and export again");
     }
 
 private:

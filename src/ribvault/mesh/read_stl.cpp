@@ -103,8 +103,15 @@ void read_stl(const InputFile& file, MeshBuilder& mesh) {
         file.fail(ErrorKind::unreadable, "byte " + std::to_string(file.data.size()),
                   "the file ends inside the 84 bytes of a binary STL header",
                   "it is incomplete, copy or export it again");
+    const std::size_t declared = little_endian_32(&file.data[80]),
+                      needed = header_bytes + triangle_bytes * declared;
+    if (file.data.size() > needed && file.data.size() < needed + triangle_bytes)
+        file.fail(ErrorKind::unreadable, "byte " + std::to_string(needed),
+                  "there are " + std::to_string(file.data.size() - needed) + " bytes after the " +
+                      std::to_string(declared) + " triangles that the binary STL header declares",
+                  "it is damaged, copy or export it again");
     file.fail(ErrorKind::unreadable, "byte 80",
-              "a binary STL header declares " + std::to_string(little_endian_32(&file.data[80])) +
+              "a binary STL header declares " + std::to_string(declared) +
                   " triangles, but the file's " + std::to_string(file.data.size()) + " bytes hold " +
                   std::to_string((file.data.size() - header_bytes) / triangle_bytes),
               "it is incomplete or damaged, copy or export it again");

@@ -1,5 +1,6 @@
 #include "ribvault/pipeline/make_page.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include "ribvault/error.hpp"
@@ -43,6 +44,8 @@ void append_gcode(const PageJob& job, const std::filesystem::path& file, RunPage
 void make_page(const PageJob& job) {
     if (job.runs.empty() || job.runs.size() > 2)
         throw Error(ErrorKind::usage, "a page shows one run or two, not " + std::to_string(job.runs.size()));
+    if (!job.rule_given.empty() && std::all_of(job.runs.begin(), job.runs.end(), is_json))
+        throw Error(ErrorKind::usage, job.rule_given + " has no effect: layers files carry their verdicts");
     check_outputs(job.runs, {{"--output", job.page}});
     AtomicFile file(job.page);
     RunPage page([&file](std::string_view text) { file.write(text); });

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "ribvault/pipeline/generate.hpp"
+#include "ribvault/report/number_text.hpp"
 
 namespace ribvault {
 namespace {
@@ -57,8 +58,10 @@ void describe_verdict(std::string& text, const RunReport& r) {
             print(text, "  layer %d: %s\n", layer.layer, layer.verdict.malformed.c_str());
     }
     if (!r.verdict.print_proved) {
-        print(text, "%s  of what is extruded, %.3f mm on %zu of %d layers hang in air:\n",
-              r.settings.gaps == Gaps::paper ? "warning " : "NOT PROVED", r.verdict.print_unsupported_mm[1],
+        const double mm = r.verdict.print_unsupported_mm[1];
+        const std::string what = mm < 0.0005 ? "sides of tracks, no centre line," : fixed(mm, 3) + " mm";
+        print(text, "%s  of what is extruded, %s on %zu of %d layers hang in air:\n",
+              r.settings.gaps == Gaps::paper ? "warning " : "NOT PROVED", what.c_str(),
               r.verdict.print_layers_refuted.size(), layers);
         int named = 0;
         for (const LayerReport& layer : r.layers)

@@ -13,6 +13,8 @@ constexpr double pooled_mm = 0.25;                 // shorter stretches share on
 constexpr std::int64_t pm_per_mm = 1000000000;     // 1e-9 mm
 constexpr Int128 decimal_per_pm = decimal_one / pm_per_mm;
 constexpr std::int64_t widest = 100 * pm_per_mm;
+constexpr Int128 z_rounding = decimal_one / 200;       // 0.005 mm, as slicers round
+constexpr std::int64_t thickest_first = 1 * pm_per_mm; // a layer on the bed is no higher
 
 std::int64_t in_pm(Int128 z) { return static_cast<std::int64_t>(z / decimal_per_pm); }
 
@@ -118,15 +120,35 @@ void LayerCollector::file_climbs(const LayerHints& hints) {
         const auto above = std::lower_bound(level.begin(), level.end(), top);
         const Int128 under = above == level.begin() ? 0 : *std::prev(above);
         Int128 z = under + std::max<Int128>(1, (top - under + step - 1) / step) * step;
-        if (above != level.end() && (*above - top < step || z > *above)) z = *above;
+        if (above != level.begin() && top - under <= z_rounding)
+            z = under;
+        else if (above != level.end() && (*above - top < step || z > *above)) z = *above;
         file(group({z, c.extrusion.height.value_or(0)}), c.extrusion, c.width, c.continues);
     }
     climbing_.clear();
     level_from_ = 0;
 }
 
-void LayerCollector::resolve_heights(const GcodePrint& print, const LayerHints& hints) {
+void LayerCollector::merge_rounded() {
+    Groups merged;
+    Int128 z = 0;
+    for (auto& [key, layer] : groups_) {
+        if (merged.empty() || key.z - z > z_rounding) z = key.z;
+        GcodeLayer& to = merged[{z, key.height}];
+        if (to.tracks.empty()) {
+            to = std::move(layer);
+            continue;
+        }
+        const auto first = static_cast<std::uint32_t>(to.points.size());
+        to.points.insert(to.points.end(), layer.points.begin(), layer.points.end());
+        for (GcodeTrack& track : layer.tracks) track.a += first, track.b += first, to.tracks.push_back(track);
+    }
+    groups_ = std::move(merged);
+}
+
+void LayerCollector::resolve_heights(GcodePrint& print, const LayerHints& hints) {
     Groups resolved;
+    std::vector<std::int64_t> distances;  // heights that are the distance to the next lower layer
     std::int64_t lower = 0;  // top of the next lower z
     for (auto at = groups_.begin(); at != groups_.end();) {
         const Int128 z = at->first.z;
@@ -142,8 +164,9 @@ void LayerCollector::resolve_heights(const GcodePrint& print, const LayerHints& 
             if (count > most) most = count, said = end->first.height;
         }
         std::int64_t usual = said;
-        if (usual == 0 && resolved.empty()) usual = hints.first_layer_height.value_or(hints.layer_height.value_or(top));
-        if (usual == 0) usual = top - lower;
+        if (usual == 0 && resolved.empty())
+            usual = hints.first_layer_height.value_or(top <= thickest_first ? top : hints.layer_height.value_or(top));
+        if (usual == 0) distances.push_back(usual = top - lower);
         if (usual <= 0) usual = hints.layer_height.value_or(pm_per_mm / 5);  // at or below the bed
         for (; at != end; ++at) {
             GcodeLayer& from = at->second;
@@ -167,6 +190,11 @@ void LayerCollector::resolve_heights(const GcodePrint& print, const LayerHints& 
         lower = top;
     }
     groups_ = std::move(resolved);
+    for (std::size_t k = 0; k < distances.size(); ++k) {
+        const std::int64_t before = k > 0 ? distances[k - 1] : 0,
+                           after = k + 1 < distances.size() ? distances[k + 1] : 0;
+        print.thin_layers += 2 * distances[k] <= std::max(before, after);
+    }
 }
 
 void LayerCollector::resolve_widths(GcodePrint& print, GcodeLayer& layer, const LayerHints& hints) const {
@@ -192,6 +220,7 @@ void LayerCollector::finish(GcodePrint& print, const LayerHints& hints) {
     last_group_ = nullptr;
     file_climbs(hints);
     last_group_ = nullptr;
+    merge_rounded();
     resolve_heights(print, hints);
     int number = -1;
     Int128 z = 0;

@@ -78,7 +78,8 @@ private:
     GcodeLayer& group(Key key);
     void file_level_end();
     void file_climbs(const LayerHints& hints);
-    void resolve_heights(const GcodePrint& print, const LayerHints& hints);
+    void merge_rounded();
+    void resolve_heights(GcodePrint& print, const LayerHints& hints);
     void resolve_widths(GcodePrint& print, GcodeLayer& layer, const LayerHints& hints) const;
 
     Groups groups_;

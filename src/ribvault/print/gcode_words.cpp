@@ -36,6 +36,17 @@ bool is_read(const GcodeWords& w) {
     return w.letter == 'M' && w.code == 200;
 }
 
+/// G17 to G21, G53 to G59, G90 and G91 have no words of their own.
+bool is_mode(const GcodeWords& w) {
+    return w.letter == 'G' &&
+           ((w.code >= 17 && w.code <= 21) || (w.code >= 53 && w.code <= 59) || w.code == 90 || w.code == 91);
+}
+
+bool has_command(std::string_view text) {
+    skip_blanks(text);
+    return text.size() > 1 && (upper(text[0]) == 'G' || upper(text[0]) == 'M') && is_digit(text[1]);
+}
+
 std::string scan_words(std::string_view text, GcodeWords& w) {
     const bool flags = w.letter == 'G' && w.code == 28;  // "G28 X": a letter alone
     for (skip_blanks(text); !text.empty() && text.front() != '*'; skip_blanks(text)) {
@@ -88,6 +99,8 @@ std::string scan_line(std::string_view line, GcodeWords& w) {
         if (text.empty()) return {};
     }
     const char letter = upper(text.front());
+    if (std::string_view("XYZE").find(letter) != std::string_view::npos && scan_decimal(text.substr(1)).length > 0)
+        return quoted_text(text) + " moves without a command; expected G0 to G3 before it on each line";
     if (letter != 'G' && letter != 'M' && letter != 'T') return {};
     std::string_view rest = text.substr(1);
     w.code = scan_code(rest);
@@ -97,6 +110,7 @@ std::string scan_line(std::string_view line, GcodeWords& w) {
         rest.remove_prefix(1);
         w.subcode = std::max(0, scan_code(rest));
     }
+    if (is_mode(w) && has_command(rest)) return "a second command on the line; expected each on a line of its own";
     return is_read(w) ? scan_words(rest, w) : std::string{};
 }
 

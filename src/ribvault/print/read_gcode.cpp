@@ -86,6 +86,9 @@ private:
         if (text.starts_with("GCDE"))
             fail("is binary G-code", "switch off 'binary G-code' in the slicer, or convert it to .gcode");
         if (text.starts_with("PK\3\4")) fail("is a ZIP archive, as .3mf files are", "unpack the .gcode file in it");
+        const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+        if (first != std::string_view::npos && text[first] == '{')
+            fail("is JSON, no G-code", "name a .gcode file; a layers file is for `ribvault page`");
         const std::string_view start = text.substr(0, 4096);
         const auto odd = std::count_if(start.begin(), start.end(), [](char c) {
             return static_cast<unsigned char>(c) < 32 && c != '\t' && c != '\n' && c != '\r' && c != '\f';

@@ -161,19 +161,24 @@ constexpr const char* shape_names[] = {"slice", "cavity",      "vertices",     "
                                        "edges", "unsupported", "patch_tracks", "wide"};
 
 Json parsed(const std::string& line) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos)
+        throw Wrong{"is blank; expected a JSON object on every line"};
     Json object = Json::parse(line, nullptr, false);
     if (object.is_discarded()) throw Wrong{"is no JSON; is the file cut off?"};
     if (!object.is_object()) throw Wrong{"is no JSON object"};
     return object;
 }
 
+std::string wanted() {
+    return std::string("; expected a layers file, schema ") + layers_schema +
+           ", as `ribvault generate --layers` writes it";
+}
+
 void check_schema(const Json& header) {
     const Json schema = header.contains("schema") ? header["schema"] : Json();
     if (schema == layers_schema) return;
-    const std::string wanted = std::string("; expected a layers file, schema ") + layers_schema +
-                               ", as `ribvault generate --layers` writes it";
-    if (!schema.is_string()) throw Wrong{"has no \"schema\"" + wanted};
-    throw Wrong{"is of schema " + schema.get<std::string>() + wanted};
+    if (!schema.is_string()) throw Wrong{"has no \"schema\"" + wanted()};
+    throw Wrong{"is of schema " + schema.get<std::string>() + wanted()};
 }
 
 }  // namespace
@@ -184,6 +189,8 @@ LayersFile::LayersFile(std::filesystem::path file) : path_(std::move(file)), in_
         throw Error(ErrorKind::unreadable, path_.string() + ": there is no such file, or it cannot be read");
     if (!read_line(header_)) fail("is empty; expected a layers file");
     try {
+        if (header_ == "{" || header_ == "{\r")  // JSON over many lines
+            throw Wrong{"holds no whole JSON object" + wanted()};
         const Json header = parsed(header_);
         check_schema(header);
         for (const Field& field : header_fields) need(header, field);
