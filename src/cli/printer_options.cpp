@@ -72,9 +72,10 @@ void add_tracks(CLI::App* command, TrackSettings& t) {
                "where outer perimeters begin (default aligned)");
     group->add_flag_callback(
         "--no-thin-walls", [&t] { t.thin_walls = false; }, "no tracks where the slice is narrower than one");
-    group->add_flag_function(
-        "--no-fill-gaps", [&t](std::int64_t) { t.fill_gaps = false; },
-        "no tracks in strips of the shell that are too narrow for covers");
+    add_choice(group, "--fill-gaps", t.fill_gaps,
+               {{"all", GapFill::all}, {"needed", GapFill::needed}, {"none", GapFill::none}},
+               "which strips of the shell that are too narrow for covers get a track (default needed: what shows and "
+               "what something stands on)");
     add_length(group, "--resolution", t.resolution,
                "tool paths follow slices within this (default 0.005; 0: every vertex)");
     add_length(group, "--first-layer-width", t.first_layer_width,

@@ -118,6 +118,67 @@ TEST_CASE(
     CHECK(length(path) > 5000);
 }
 
+TEST_CASE("spare strips are printed where something stands on them, and nowhere else") {
+    LayerPlan shell = square_shell();
+    PlannedTrack strip = track(TrackKind::thin_wall, false, {{35000, mm}, {35000, 19 * mm}});
+    strip.paths.front().width = 30000;
+    shell.spare.push_back(strip);
+    shell.unfilled_area = 18.0 * mm * 30000;
+    const auto strips = [](const HeldLayer& held) {
+        std::vector<ToolPath> found;
+        for (const PlannedTrack& t : held.plan.tracks)
+            for (const ToolPath& path : t.paths)
+                if (path.kind == TrackKind::thin_wall) found.push_back(path);
+        return found;
+    };
+    CHECK(strips(hold_print(shell, {}, nullptr, {})).empty());
+    // A perimeter 0.2 mm farther in: what the perimeter below holds up.
+    PrintedLayer above = print_of({track(TrackKind::outer_perimeter, false, {{20000, 3 * mm}, {20000, 17 * mm}})});
+    HeldLayer held = hold_print(shell, {}, &above, {});
+    CHECK(judge_print(above, *held.printed, {}).supported);
+    CHECK(strips(held).empty());
+    // 0.3 mm farther in, in two places 4 mm apart.
+    above = print_of({track(TrackKind::outer_perimeter, false, {{30000, 3 * mm}, {30000, 5 * mm}}),
+                      track(TrackKind::outer_perimeter, false, {{30000, 9 * mm}, {30000, 17 * mm}})});
+    held = hold_print(shell, {}, &above, {});
+    CHECK(judge_print(above, *held.printed, {}).supported);
+    CHECK(held.patches == 0);
+    std::vector<ToolPath> found = strips(held);
+    REQUIRE(found.size() == 2);
+    double along = 0;
+    for (const ToolPath& path : found) along += length(path);
+    CHECK(along >= 10.0 * mm);
+    CHECK(along <= 10.0 * mm + 4 * (55000 + 40000));  // at each end a reach and a piece
+    CHECK(held.plan.unfilled_area == Approx((18.0 * mm - along) * 30000));
+    CHECK(held.plan.spare.empty());
+    // 1 mm apart: one track, which costs less time than a travel.
+    above = print_of({track(TrackKind::outer_perimeter, false, {{30000, 3 * mm}, {30000, 5 * mm}}),
+                      track(TrackKind::outer_perimeter, false, {{30000, 6 * mm}, {30000, 9 * mm}})});
+    held = hold_print(shell, {}, &above, {});
+    CHECK(judge_print(above, *held.printed, {}).supported);
+    CHECK(strips(held).size() == 1);
+}
+
+TEST_CASE("a wall goes on through a strip in which nothing is printed until it overlaps the perimeter") {
+    const auto wall_from = [](Unit x) {
+        SupportForest forest;
+        const auto root = add_vertex(SupportVertex{{x, 10 * mm}, true}, forest),
+                   tip = add_vertex(SupportVertex{{5 * mm, 10 * mm}, false}, forest);
+        add_edge(root, tip, forest);
+        const HeldLayer held = hold_print(square_shell(), forest, nullptr, {});
+        const std::vector<Segment> walls = segments_of(held.plan, TrackKind::support);
+        double least = HUGE_VAL;
+        for (const Segment& wall : walls)
+            least = std::min({least, static_cast<double>(wall.a.x), static_cast<double>(wall.b.x)});
+        return least;
+    };
+    CHECK(wall_from(20000) == 20000);  // at the perimeter's edge: it overlaps it by a radius
+    CHECK(wall_from(30000) == 30000);
+    CHECK(wall_from(38000) == 30000);
+    CHECK(wall_from(55000) == 30000);
+    CHECK(wall_from(2 * mm) == 2 * mm);  // not a strip
+}
+
 TEST_CASE("what hangs outside the outline is measured, not patched") {
     const PrintedLayer above =
         print_of({track(TrackKind::outer_perimeter, false, {{-3 * mm, 5 * mm}, {-3 * mm, 9 * mm}})});

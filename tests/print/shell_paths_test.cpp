@@ -6,6 +6,7 @@
 #include "ribvault/print/cover_lines.hpp"
 #include "ribvault/print/order_paths.hpp"
 #include "ribvault/print/shell_paths.hpp"
+#include "ribvault/slice/cavity.hpp"
 
 using namespace ribvault;
 using namespace ribvault::test;
@@ -181,13 +182,14 @@ TEST_CASE("covers around a cavity link along curved borders") {
     const LayerPaths layer = shell_paths(outline, cavity, Settings{});
     check_shell(outline, cavity, Settings{}, layer, TrackSettings().resolution);
     // 72 pieces of lines; only where the border runs nearly along them is the way to the next longer than 2 d.
-    CHECK(layer.paths.size() < 20);
+    CHECK(std::count_if(layer.paths.begin(), layer.paths.end(),
+                        [](const ToolPath& path) { return path.kind == TrackKind::cover; }) < 20);
 }
 
 TEST_CASE("places narrower than one track get a track of their width, those just wider a perimeter, then a cover") {
     const auto layer = [](Unit width, bool thin = true) {
         TrackSettings tracks;
-        tracks.thin_walls = thin, tracks.fill_gaps = false;
+        tracks.thin_walls = thin, tracks.fill_gaps = GapFill::none;
         return shell_paths({rectangle(0, 0, 10 * mm, width)}, {}, Settings{}, 0, tracks);
     };
     const LayerPaths wall = layer(32000);
@@ -327,7 +329,7 @@ TEST_CASE(
     const Region outline{rectangle(0, 0, 20 * mm, 20 * mm)};
     const auto layer = [&](Unit strip) {
         TrackSettings tracks;
-        tracks.fill_gaps = true;
+        tracks.fill_gaps = GapFill::all;
         return shell_paths(outline, {rectangle(40000 + strip, 40003, 1959997, 1959997)}, Settings{}, 0, tracks);
     };
     const LayerPaths filled = layer(30000);
@@ -345,6 +347,97 @@ TEST_CASE(
                        [](const ToolPath& p) { return p.kind == TrackKind::thin_wall; }));
     CHECK(open.unfilled_area == Approx(15000.0 * 19.2 * mm).epsilon(0.01));
     CHECK(open.thin_places == 0);
+}
+
+TEST_CASE("a strip that shows from nowhere is spare, as far as the covering slices reach") {
+    const Region outline{rectangle(0, 0, 20 * mm, 20 * mm)}, cavity{rectangle(70000, 40003, 1959997, 1959997)};
+    const auto plan_with = [&](const Covering& covering, GapFill which) {
+        TrackSettings tracks;
+        tracks.fill_gaps = which;
+        LayerPlan plan;
+        append_shell_paths(slice_of(outline), cavity, Settings{}, tracks, plan, covering);
+        return plan;
+    };
+    const auto along = [](const std::vector<PlannedTrack>& tracks) {
+        double sum = 0;
+        for (const PlannedTrack& track : tracks)
+            for (const ToolPath& path : track.paths)
+                if (path.kind == TrackKind::thin_wall) sum += length(path);
+        return sum;
+    };
+    const auto slice = [](Region region) { return std::make_shared<const Slice>(slice_of(std::move(region))); };
+    const Covering slope{slice(outline), slice({rectangle(30000, 0, 20 * mm, 20 * mm)})},
+        steep{slice({rectangle(42000, 0, 20 * mm, 20 * mm)}), slice(outline)},
+        step{slice({rectangle(30000, 0, 20 * mm, 12 * mm)}), slice(outline)};
+    const LayerPlan all = plan_with(slope, GapFill::all);
+    const double whole = along(all.tracks);
+    CHECK(whole > 18.5 * mm);
+    CHECK(all.spare.empty());
+    const LayerPlan hidden = plan_with(slope, GapFill::needed);
+    CHECK(along(hidden.tracks) == 0);
+    CHECK(along(hidden.spare) == whole);
+    CHECK(hidden.unfilled_area == Approx(all.unfilled_area + whole * 28000));
+    // Of this one the outer edge shows.
+    CHECK(along(plan_with(steep, GapFill::needed).spare) == 0);
+    CHECK(along(plan_with({}, GapFill::needed).tracks) == whole);
+    const LayerPlan part = plan_with(step, GapFill::needed);
+    CHECK(along(part.tracks) + along(part.spare) == Approx(whole).margin(10));
+    CHECK(along(part.spare) == Approx(11.5 * mm).margin(0.5 * mm));
+    CHECK(plan_with(slope, GapFill::none).spare.empty());
+}
+
+TEST_CASE("what shows of a layer is printed alike with all gaps filled and with those needed") {
+    std::mt19937_64 random(41);
+    for (int round = 0; round < 12; ++round) {
+        const Settings settings;
+        const Contour middle = star(random, {}, 40, 7, 10);
+        const auto moved = [&](double by) {  // the star's corners in or out by up to so much
+            std::uniform_real_distribution<double> share(0, by);
+            Contour c = middle;
+            for (Point& p : c) {
+                const double r = std::hypot(static_cast<double>(p.x), static_cast<double>(p.y));
+                p = part_way({}, p, 1 - share(random) * mm / r);
+            }
+            return c;
+        };
+        const double slope = round % 2 == 0 ? 0.4 : 1.2;
+        const Slice own = slice_of({middle}, 1), below = slice_of({moved(slope)}, 0),
+                    above = slice_of({moved(slope)}, 2);
+        const Region cavity = intersect(intersect(erode_slice(own, settings), erode_slice(below, settings)),
+                                        erode_slice(above, settings));
+        const Covering covering{std::make_shared<const Slice>(below), std::make_shared<const Slice>(above)};
+        const auto plan_with = [&](GapFill which) {
+            TrackSettings tracks;
+            tracks.fill_gaps = which;
+            LayerPlan plan;
+            plan.layer = 1;
+            append_shell_paths(own, cavity, settings, tracks, plan, covering);
+            return plan;
+        };
+        const LayerPlan all = plan_with(GapFill::all), needed = plan_with(GapFill::needed);
+        CHECK_FALSE(needed.spare.empty());
+        const auto covers = [](const LayerPlan& plan, Point p, double more) {
+            for (const PlannedTrack& track : plan.tracks)
+                for (const ToolPath& path : track.paths) {
+                    std::vector<Segment> lines;
+                    append_segments(path, lines);
+                    for (const Segment& line : lines)
+                        if (distance({p, p}, line) <= static_cast<double>(path.width) / 2 + more) return true;
+                }
+            return false;
+        };
+        std::uniform_int_distribution<Unit> at(-10 * mm, 10 * mm);
+        int looked_at = 0, open = 0;
+        for (int k = 0; k < 20000 && looked_at < 400; ++k) {
+            const Point p{at(random), at(random)};
+            if (winding_number(own.rounded, p) == 0) continue;
+            if (winding_number(below.rounded, p) != 0 && winding_number(above.rounded, p) != 0) continue;
+            ++looked_at;
+            open += covers(all, p, 0) && !covers(needed, p, 2);
+        }
+        CHECK(looked_at > 50);
+        CHECK(open == 0);
+    }
 }
 
 TEST_CASE("perimeters come outer first or inner first, each after its neighbour") {

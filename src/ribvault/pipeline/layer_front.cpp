@@ -106,8 +106,10 @@ void LayerFront::gather(Token& token) {
     while (window_top_ > layer + std::max(up, settings_.support_gap_layers)) window_.pop_front(), --window_top_;
     const auto at = [&](int j) -> const Eroded& { return window_[static_cast<std::size_t>(window_top_ - j)]; };
     bool complete = layer + up < layers_ && layer - down >= 0;  // missing layers count as empty
-    for (int j = layer + up; complete && j >= layer - down; --j)
+    for (int j = layer + up; complete && j >= layer - down; --j) {
         token.eroded.push_back(at(j).region);
+        if (j != layer) token.covering.push_back(at(j).slice);
+    }
     Eroded& own = window_[static_cast<std::size_t>(window_top_ - layer)];
     token.material.layer = layer;
     token.material.slice = own.slice;
@@ -145,7 +147,7 @@ void LayerFront::hang(Token& token) {
             token.material.shell = std::make_shared<LayerPlan>();
             token.material.shell->layer = token.layer;
             append_shell_paths(*token.material.slice, token.material.cavity->region, settings_, *tracks_,
-                               *token.material.shell);
+                               *token.material.shell, token.covering);
         });
     if (!token.above.slice || !overhangs_wanted_) return;
     overhangs_.measure([&] {

@@ -8,6 +8,7 @@
 #include "ribvault/exact/point_location.hpp"
 #include "ribvault/print/drop_tiny_steps.hpp"
 #include "ribvault/print/gap_patches.hpp"
+#include "ribvault/print/gap_strips.hpp"
 #include "ribvault/print/lay_patches.hpp"
 #include "ribvault/print/place_dot.hpp"
 #include "ribvault/print/printed_tracks.hpp"
@@ -20,6 +21,28 @@ constexpr int rounds = 6;  ///< of mending, each of which is followed by another
 
 Lane lane_of(const PrintedTrack& track) {
     return {place_of(track, {0, 0, HUGE_VAL}), round_to_lattice(track.width.get_d() * units_per_mm)};
+}
+
+/// Walls that end at strips of the shell in which nothing is printed (print/gap_strips.hpp, or narrower than d / 2) go
+/// on through them until they overlap the next track by d / 4, as slicers let their infill overlap perimeters.
+void reach_shell(const LayerPlan& shell, const Settings& settings, SupportForest& forest) {
+    const PlanTracks tracks(shell);
+    if (tracks.segments().empty()) return;
+    const auto d = static_cast<double>(settings.nozzle);
+    for (std::size_t v = 0, before = num_vertices(forest); v < before; ++v) {
+        const SupportVertex root = forest[v];
+        if (!root.root || root.free || root.outside || out_degree(v, forest) != 1) continue;
+        const NearestSegment::Hit hit = tracks.segments().nearest(root.at);
+        const PlanTracks::Place place = tracks.place(hit.index);
+        const double half = static_cast<double>(shell.tracks[place.track].paths[place.path].width) / 2,
+                     wanted = half + d / 4, far = std::sqrt(hit.distance.value());
+        if (far <= wanted + d / 40 || far > half + 2 * d) continue;
+        const Point end =
+            part_way(nearest_point(root.at, tracks.segments().segments()[hit.index]), root.at, wanted / far);
+        const auto w = add_vertex(root, forest);
+        forest[w].at = end, forest[v].root = false;
+        add_edge(v, w, forest);
+    }
 }
 
 /// Without its isolated roots, which hold up the last stub of a wall above: they are printed where something hangs
@@ -52,17 +75,25 @@ public:
     }
 
     HeldLayer run() {
+        const bool may_need_strips = above_ && !shell_.spare.empty();
+        if (!may_need_strips) reach_shell(shell_, settings_, forest_);
         lay_supports();
         if (!above_) return std::move(held_);
         judge();
         std::vector<Hanging> hanging = open();
+        if (may_need_strips) {
+            print_strips(hanging);
+            reach_shell(shell_, settings_, forest_);
+            lay_supports();
+            look_again();
+            hanging = open();
+        }
         for (int round = 0; settings_.gaps != Gaps::paper && !hanging.empty() && round < rounds; ++round) {
             if (!tracks_ && close_gaps(hanging) > 0)
                 lay_supports();
             else
                 patch(hanging, round);
-            held_.mended = true;
-            for (PrintPart& part : held_.parts) part.judgement.change_below(*held_.printed);
+            look_again();
             hanging = open();
         }
         if (settings_.outside() && settings_.support_gap_layers > 0 && settings_.gaps != Gaps::paper)
@@ -125,6 +156,23 @@ private:
         held_.printed = std::make_shared<const PrintedLayer>(printed_layer(held_.plan));
     }
 
+    void look_again() {
+        held_.mended = true;
+        for (PrintPart& part : held_.parts) part.judgement.change_below(*held_.printed);
+    }
+
+    /// Prints spare strips of the shell where they may be what something needs.
+    void print_strips(const std::vector<Hanging>& open) {
+        std::vector<StripReach> places;
+        for (const Hanging& hanging : open)
+            places.push_back({hanging.place(), reach_under(hanging)});
+        print_strips_under(places, settings_.nozzle, shell_);
+    }
+    /// How far from the stretch there can be something that holds up what hangs there.
+    double reach_under(const Hanging& hanging) const {
+        return hanging.track->width.get_d() / 2 * units_per_mm + static_cast<double>(settings_.support_radius + 4);
+    }
+
     /// What of the layer above inside the outline is not held up.
     std::vector<Hanging> open() const {
         std::vector<Hanging> all;
@@ -158,8 +206,7 @@ private:
         };
         std::vector<Place> places;
         for (const Hanging& hanging : open) {
-            places.push_back({hanging.place(), hanging.track->width.get_d() / 2 * units_per_mm +
-                                                   static_cast<double>(settings_.support_radius + 4)});
+            places.push_back({hanging.place(), reach_under(hanging)});
         }
         int closed = 0;
         for (auto [e, end] = edges(forest_); e != end; ++e) {
@@ -354,8 +401,7 @@ private:
             return;
         }
         lay_all_patches();
-        held_.mended = true;
-        for (PrintPart& part : held_.parts) part.judgement.change_below(*held_.printed);
+        look_again();
     }
 
     LayerPlan shell_;

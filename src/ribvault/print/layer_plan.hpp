@@ -18,11 +18,14 @@ struct PlannedTrack {
 struct LayerPlan {
     int layer = 0;
     std::vector<PlannedTrack> tracks;
+    /// Tracks of the shell that are printed only as far as something stands on them (print/gap_strips.hpp). Their area
+    /// counts as unfilled.
+    std::vector<PlannedTrack> spare;
     int gaps = 0;
     Unit gap_length = 0;
     int thin_places = 0;      ///< places of the slice too narrow for any track
     double thin_area = 0;     ///< their area in square lattice units
-    double unfilled_area = 0;  ///< of the shell inside the perimeters that is too narrow for any track, the same
+    double unfilled_area = 0;  ///< of the shell inside the perimeters between all tracks, the same
 };
 
 /// The centre lines of all tracks of a kind.

@@ -1,10 +1,12 @@
 #include "ribvault/print/shell_paths.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <optional>
 
 #include "ribvault/print/cover_lines.hpp"
+#include "ribvault/print/gap_strips.hpp"
 #include "ribvault/print/islands.hpp"
 #include "ribvault/print/medial_tracks.hpp"
 #include "ribvault/print/simplify.hpp"
@@ -146,36 +148,15 @@ void append_thin_walls(const Region& outline, const Region& outermost, Unit w, b
     }
 }
 
-/// Where centre lines of covers may run, as connected areas with their holes. Eroding O_i \ C_i is eroding O_i and
-/// dilating C_i, and keeps Clipper away from the nearly coincident borders of the two.
-std::vector<Region> cover_areas(const Region& outline, const Region& cavity, int perimeters, double width) {
-    return connected_pieces(
-        clip(cl::ctDifference, mitred(outline, -(perimeters + 0.5) * width), mitred(cavity, width / 2)));
-}
-
-/// Strips between perimeters, covers and cavity that are too narrow for a cover. `areas`: where centre lines of covers
-/// run.
-void append_gap_fill(const Region& outline, const Region& cavity, int perimeters, Unit w,
-                     const std::vector<Region>& areas, bool printed, LayerPlan& plan) {
-    const double width = static_cast<double>(w);
-    constexpr double apart = 10;  // lattice units: keeps Clipper away from nearly coincident borders
-    const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - 2 * apart), cavity);
-    Region filled;
-    for (const Region& area : areas)
-        for (Contour& c : mitred(area, width / 2 + 2 * apart)) filled.push_back(std::move(c));
-    if (signed_area(room) - signed_area(filled) < width * width / 16) return;
-    const Region left = clip(cl::ctDifference, room, filled);
-    plan.unfilled_area += signed_area(left);
-    if (!printed) return;
-    // Only where a track of w / 2 has room; most strips are narrower all along.
-    const Region wide = clip(cl::ctIntersection, mitred(mitred(left, -width / 4), width / 4 + apart), left);
-    for (const Region& piece : connected_pieces(wide)) {
-        const double area = signed_area(piece);
-        if (area < width * width / 2) continue;
-        std::vector<PlannedTrack> strips = medial_tracks(piece, w, TrackKind::thin_wall);
-        if (!strips.empty()) plan.unfilled_area -= area;
-        std::move(strips.begin(), strips.end(), std::back_inserter(plan.tracks));
-    }
+/// Where centre lines of covers may run, as connected areas with their holes. Without
+/// `narrow` places narrower than half a width are left to append_gap_fill: one line along the middle of a strip at most
+/// 3/2 widths wide is printed faster than many short ones across it. Eroding O_i \ C_i is eroding O_i and dilating C_i,
+/// and keeps Clipper away from the nearly coincident borders of the two.
+std::vector<Region> cover_areas(const Region& outline, const Region& cavity, int perimeters, double width,
+                                bool narrow) {
+    Region centres = clip(cl::ctDifference, mitred(outline, -(perimeters + 0.5) * width), mitred(cavity, width / 2));
+    if (!narrow) centres = clip(cl::ctIntersection, mitred(mitred(centres, -width / 4), width / 4 + 10), centres);
+    return connected_pieces(std::move(centres));
 }
 
 void append_concentric(Region area, Unit w, LayerPlan& plan) {
@@ -205,20 +186,58 @@ void append_covers(const Region& area, Unit w, bool falling, CoverPattern patter
     }
 }
 
+/// What the covers, the plan's tracks from `first_cover` on, print, and `more` around it.
+Region printed_covers(const LayerPlan& plan, std::size_t first_cover, double more) {
+    std::map<Unit, std::vector<Segment>> lines;  // by width
+    for (std::size_t k = first_cover; k < plan.tracks.size(); ++k)
+        for (const ToolPath& path : plan.tracks[k].paths) append_segments(path, lines[path.width]);
+    Region printed;
+    for (const auto& [width, segments] : lines) {
+        const auto w = static_cast<double>(width);
+        for (Contour& c : offset(segments, w / 2 + more, w / 20)) printed.push_back(std::move(c));
+    }
+    return printed;
+}
+
+/// Strips between perimeters, covers and cavity, and beside covers that do not reach their border, that are too narrow
+/// for a cover. The covers are the plan's tracks from `first_cover` on.
+void append_gap_fill(const Region& outline, const Region& cavity, int perimeters, Unit w,
+                     std::size_t first_cover, GapFill which, const Covering& covering, LayerPlan& plan) {
+    const double width = static_cast<double>(w);
+    constexpr double apart = 10;  // lattice units: keeps Clipper away from nearly coincident borders
+    const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - 2 * apart), cavity);
+    const Region filled = printed_covers(plan, first_cover, 2 * apart);
+    if (signed_area(room) - signed_area(filled) < width * width / 16) return;
+    const Region left = clip(cl::ctDifference, room, filled);
+    plan.unfilled_area += signed_area(left);
+    if (which == GapFill::none) return;
+    // Only where a track of w / 2 has room; most strips are narrower all along.
+    const Region wide = clip(cl::ctIntersection, mitred(mitred(left, -width / 4), width / 4 + apart), left);
+    for (const Region& piece : connected_pieces(wide)) {
+        const double area = signed_area(piece);
+        if (area < width * width / 2) continue;
+        std::vector<PlannedTrack> strips = medial_tracks(piece, w, TrackKind::thin_wall);
+        if (!strips.empty()) plan.unfilled_area -= area;
+        append_strips(std::move(strips), which == GapFill::needed ? covering : Covering(), w, plan);
+    }
+}
+
 }  // namespace
 
 void append_shell_paths(const Slice& slice, const Region& exact_cavity, const Settings& settings,
-                        const TrackSettings& tracks, LayerPlan& plan) {
+                        const TrackSettings& tracks, LayerPlan& plan, const Covering& covering) {
     const Unit w = tracks.width_on(slice.layer, settings.nozzle);
     const Region outline = simplify(slice.rounded, tracks.resolution),
                  cavity = simplify(exact_cavity, tracks.resolution);
     const Region outermost = mitred(outline, -static_cast<double>(w) / 2);
     append_perimeters(outermost, w, settings, tracks, outline, plan);
     append_thin_walls(outline, outermost, w, tracks.thin_walls, plan);
-    const std::vector<Region> areas = cover_areas(outline, cavity, settings.perimeters, static_cast<double>(w));
-    append_gap_fill(outline, cavity, settings.perimeters, w, areas, tracks.fill_gaps, plan);
+    const std::vector<Region> areas = cover_areas(
+        outline, cavity, settings.perimeters, static_cast<double>(w), tracks.fill_gaps == GapFill::none);
+    const std::size_t first_cover = plan.tracks.size();
     for (const Region& area : areas)
         append_covers(area, w, slice.layer % 2 != 0, tracks.covers, plan);
+    append_gap_fill(outline, cavity, settings.perimeters, w, first_cover, tracks.fill_gaps, covering, plan);
 }
 
 }  // namespace ribvault

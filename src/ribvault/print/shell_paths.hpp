@@ -1,6 +1,7 @@
 // From the shell B_i to tracks: perimeters along the slice's boundary, thin walls, covers.
 #pragma once
 
+#include "ribvault/print/gap_strips.hpp"
 #include "ribvault/print/layer_plan.hpp"
 #include "ribvault/print/track_settings.hpp"
 #include "ribvault/slice/slice.hpp"
@@ -20,8 +21,10 @@ namespace ribvault {
 /// what a dot leaves where that is more than half, are counted in the plan with their area, as are all without
 /// `tracks.thin_walls`.
 ///
-/// Gaps: strips of the shell between perimeters, covers and cavity that are too narrow for a cover get medial_tracks
-/// alike with `tracks.fill_gaps`; the area of the others, or of all, is added to the plan (`unfilled_area`).
+/// Gaps: strips of the shell between perimeters, covers and cavity that are too narrow for a cover, at most 3/2 w wide,
+/// and those that the lines of a cover leave beside its border get medial_tracks alike as `tracks.fill_gaps` says; with
+/// GapFill::needed those that do not show become `plan.spare`, as append_strips finds from `covering`. The area of all
+/// that stays open is added to the plan (`unfilled_area`).
 ///
 /// Covers: what the perimeters and the cavity C_i (`cavity`) leave of O_i is filled by `tracks.covers`: straight tracks
 /// of width w, w apart, at 45° on even layers and at 135° on odd ones, or closed ones along the border with
@@ -31,6 +34,6 @@ namespace ribvault {
 /// Postcondition: centre lines of perimeters and covers lie at least w / 2 inside O_i, but for two lattice units
 /// (20 nm) of rounding; the same holds for covers and the complement of the cavity.
 void append_shell_paths(const Slice& slice, const Region& cavity, const Settings& settings, const TrackSettings& tracks,
-                        LayerPlan& plan);
+                        LayerPlan& plan, const Covering& covering = {});
 
 }  // namespace ribvault

@@ -58,7 +58,7 @@ struct LayerPaths {
     Unit gap_length = 0;    ///< what these gaps take from the supports' length, in lattice units
     int thin_places = 0;    ///< places of the slice too narrow for any track: they are not printed
     double thin_area = 0;   ///< their area in square lattice units
-    double unfilled_area = 0;  ///< of the shell inside the perimeters that is too narrow for any track, the same
+    double unfilled_area = 0;  ///< of the shell inside the perimeters between all tracks, the same
 };
 
 }  // namespace ribvault

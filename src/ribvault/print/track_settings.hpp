@@ -19,6 +19,13 @@ enum class Seam {
     nearest   ///< where the nozzle travels least
 };
 
+/// Which strips of the shell between perimeters, covers and cavity, too narrow for a cover, get a track of their own.
+enum class GapFill {
+    all,
+    needed,  ///< what can be seen, and what something printed above stands on (print/gap_strips.hpp)
+    none
+};
+
 /// Lengths in lattice units.
 struct TrackSettings {
     bool inner_first = false;        ///< perimeters from the inside out
@@ -30,7 +37,7 @@ struct TrackSettings {
     /// third less G-code on a scanned bunny of 75 000 triangles, and strips on slopes lie more alike from layer to
     /// layer.
     Unit resolution = 500;
-    bool fill_gaps = true;           ///< the same for strips of the shell between perimeters, covers and cavity
+    GapFill fill_gaps = GapFill::needed;
     Unit first_layer_width = 0;      ///< of perimeters and covers on layer 0; at least d; 0: d
     int skirt_loops = 0;             ///< around everything on layer 0
     Unit skirt_distance = 300000;    ///< from the object, or its brim, to the skirt

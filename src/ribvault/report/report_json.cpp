@@ -78,13 +78,15 @@ Json settings(const Settings& s) {
 
 Json tracks(const TrackSettings& t, const Settings& s) {
     static constexpr const char* patterns[] = {"zigzag", "monotonic", "concentric"};
+    static constexpr const char* gap_fills[] = {"all", "needed", "none"};
     static constexpr const char* seams[] = {"aligned", "corner", "nearest"};
     return {{"inner_first", t.inner_first},
             {"alternate", t.alternate},
             {"covers", patterns[static_cast<std::size_t>(t.covers)]},
             {"seam", seams[static_cast<std::size_t>(t.seam)]},
             {"thin_walls", t.thin_walls},
-            {"fill_gaps", t.fill_gaps},
+            {"fill_gaps", t.fill_gaps != GapFill::none},
+            {"gap_fill", gap_fills[static_cast<std::size_t>(t.fill_gaps)]},
             {"resolution_mm", to_mm(t.resolution)},
             {"first_layer_width_mm", to_mm(t.width_on(0, s.nozzle))},
             {"skirt_loops", t.skirt_loops},

@@ -31,7 +31,7 @@ struct LayerReport {
     double thin_wall_length_mm = 0;  ///< tracks of their own width where the slice is narrower than one track
     int thin_places = 0;             ///< places too narrow for any track
     double thin_area_mm2 = 0;        ///< their area
-    double unfilled_area_mm2 = 0;    ///< of the shell inside the perimeters, too narrow for any track
+    double unfilled_area_mm2 = 0;    ///< of the shell inside the perimeters, between all tracks
     double filament_mm = 0;          ///< pushed along all tracks of the layer
     double extruded_mm3 = 0;         ///< the same as volume, skirt and brim included
     double prime_surplus_mm3 = 0;    ///< Section 5.1

@@ -1,0 +1,159 @@
+#include "ribvault/print/gap_strips.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ribvault/exact/nearest_segment.hpp"
+#include "ribvault/exact/point_location.hpp"
+
+namespace ribvault {
+namespace {
+
+/// A straight piece of a track.
+struct Piece {
+    TrackKind kind;
+    Unit width;
+    Segment centre;
+    bool chosen = false;
+};
+
+std::vector<Piece> pieces_of(const PlannedTrack& track, Unit longest) {
+    std::vector<Piece> pieces;
+    for (const ToolPath& path : track.paths)
+        for (std::size_t k = 1; k < path.points.size(); ++k) {
+            const Point a = path.points[k - 1], b = path.points[k];
+            const auto parts = static_cast<int>(std::ceil(length(b - a) / static_cast<double>(longest)));
+            Point from = a;
+            for (int part = 1; part <= parts; ++part) {
+                const Point to = part == parts ? b : part_way(a, b, static_cast<double>(part) / parts);
+                if (to != from) pieces.push_back({path.kind, path.width, {from, to}});
+                from = to;
+            }
+        }
+    return pieces;
+}
+
+/// Chooses pieces between chosen ones, and with `at_ends` before and after them, where these are no longer than `most`
+/// together.
+void close_up(std::vector<Piece>& pieces, double most, bool at_ends) {
+    for (std::size_t from = 0; from < pieces.size();) {
+        std::size_t to = from;
+        double along = 0;
+        for (; to < pieces.size() && pieces[to].chosen == pieces[from].chosen; ++to) along += length(pieces[to].centre);
+        const bool first = from == 0, last = to == pieces.size();
+        if (!pieces[from].chosen && along <= most && (at_ends ? !(first && last) : !first && !last))
+            for (std::size_t k = from; k < to; ++k) pieces[k].chosen = true;
+        from = to;
+    }
+}
+
+/// The runs of pieces that are `chosen`, or that are not, as tracks.
+void append_runs(const std::vector<Piece>& pieces, bool chosen, Entry entry, std::vector<PlannedTrack>& tracks) {
+    bool open = false;
+    for (const Piece& piece : pieces) {
+        if (piece.chosen != chosen) {
+            open = false;
+            continue;
+        }
+        if (!open) tracks.push_back({{}, entry, no_stop});
+        open = true;
+        std::vector<ToolPath>& paths = tracks.back().paths;
+        if (paths.empty() || paths.back().width != piece.width)
+            paths.push_back({piece.kind, piece.width, false, {piece.centre.a}});
+        paths.back().points.push_back(piece.centre.b);
+    }
+}
+
+/// What the tracks cover, about: length by width.
+double area_of(std::vector<PlannedTrack>::const_iterator from, std::vector<PlannedTrack>::const_iterator to) {
+    double area = 0;
+    for (; from != to; ++from)
+        for (const ToolPath& path : from->paths) area += length(path) * static_cast<double>(path.width);
+    return area;
+}
+
+class CoveringOutlines {
+public:
+    explicit CoveringOutlines(const Covering& covering) {
+        std::vector<Segment> all;
+        for (const auto& slice : covering) {
+            std::vector<Segment> edges = edges_of(slice->rounded);
+            all.insert(all.end(), edges.begin(), edges.end());
+            outlines_.emplace_back(std::move(edges), units_per_mm / 2);
+        }
+        edges_ = NearestSegment(std::move(all));
+    }
+
+    /// Does all of the piece's material lie in each of the outlines? `first`, `last`: of its track, with a round end.
+    bool hide(const Piece& piece, bool first, bool last) const {
+        const Segment& c = piece.centre;
+        const double half = static_cast<double>(piece.width) / (2 * length(c));
+        const Point on = part_way({}, c.b - c.a, half), side = part_way({}, {c.a.y - c.b.y, c.b.x - c.a.x}, half),
+                    from = first ? c.a - on : c.a, to = last ? c.b + on : c.b;
+        const Point corners[] = {from + side, to + side, to - side, from - side};
+        if (std::any_of(outlines_.begin(), outlines_.end(),
+                        [&](const PointLocation& outline) { return outline.locate(c.a) == Side::outside; }))
+            return false;
+        Box box;
+        for (const Point p : corners) box.add(p);
+        bool touched = false;
+        edges_.visit(box, [&](std::uint32_t k) {
+            for (std::size_t corner = 0; corner < 4 && !touched; ++corner)
+                touched = segments_touch(edges_.segments()[k], {corners[corner], corners[(corner + 1) % 4]});
+        });
+        return !touched;
+    }
+
+private:
+    std::vector<PointLocation> outlines_;
+    NearestSegment edges_;  ///< of all
+};
+
+}  // namespace
+
+void append_strips(std::vector<PlannedTrack> strips, const Covering& covering, Unit d, LayerPlan& plan) {
+    if (covering.empty()) {
+        std::move(strips.begin(), strips.end(), std::back_inserter(plan.tracks));
+        return;
+    }
+    const CoveringOutlines outlines(covering);
+    const std::size_t before = plan.spare.size();
+    for (const PlannedTrack& strip : strips) {
+        std::vector<Piece> pieces = pieces_of(strip, d);
+        for (Piece& piece : pieces)
+            piece.chosen = !outlines.hide(piece, &piece == &pieces.front(), &piece == &pieces.back());
+        close_up(pieces, static_cast<double>(d), true);
+        append_runs(pieces, true, strip.entry, plan.tracks);
+        append_runs(pieces, false, strip.entry, plan.spare);
+    }
+    plan.unfilled_area += area_of(plan.spare.begin() + static_cast<std::ptrdiff_t>(before), plan.spare.end());
+}
+
+void print_strips_under(const std::vector<StripReach>& hanging, Unit d, LayerPlan& plan) {
+    const std::vector<PlannedTrack> spare = std::move(plan.spare);
+    plan.spare.clear();
+    if (spare.empty() || hanging.empty()) return;
+    std::vector<Segment> stretches;
+    double farthest = 0;
+    for (const StripReach& h : hanging) stretches.push_back(h.stretch), farthest = std::max(farthest, h.reach);
+    const NearestSegment near(std::move(stretches));
+    const std::size_t before = plan.tracks.size();
+    for (const PlannedTrack& strip : spare) {
+        std::vector<Piece> pieces = pieces_of(strip, d);
+        for (Piece& piece : pieces) {
+            const double half = static_cast<double>(piece.width) / 2;
+            Box box;
+            box.add(piece.centre.a), box.add(piece.centre.b);
+            box.grow(static_cast<Unit>(std::ceil(farthest + half)));
+            near.visit(box, [&](std::uint32_t k) {
+                if (!piece.chosen)
+                    piece.chosen = distance(piece.centre, hanging[k].stretch) <= hanging[k].reach + half;
+            });
+        }
+        close_up(pieces, 5 * static_cast<double>(d), false);
+        append_runs(pieces, true, strip.entry, plan.tracks);
+    }
+    plan.unfilled_area -= area_of(plan.tracks.begin() + static_cast<std::ptrdiff_t>(before), plan.tracks.end());
+}
+
+}  // namespace ribvault

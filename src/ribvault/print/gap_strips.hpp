@@ -1,0 +1,36 @@
+// Narrow strips of the shell that nobody sees are printed as far as something stands on them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "ribvault/print/layer_plan.hpp"
+#include "ribvault/slice/slice.hpp"
+
+namespace ribvault {
+
+/// The slices that cover layer i, i - k .. i + k without i (MODEL: sets); none when any of them is missing.
+using Covering = std::vector<std::shared_ptr<const Slice>>;
+
+/// Enters tracks of strips between perimeters, covers and cavity in a plan: what shows in its tracks, the rest in
+/// `plan.spare`, whose area (about: length by width) counts as unfilled. Without `covering` all shows.
+///
+/// A place that lies in all covering slices and not in the cavity is less than p·d from the border of one: that one's
+/// perimeters pass over or under it, so from there it cannot be seen. On a slope that recedes by less than d over the
+/// covering layers, all of the strip is of this kind, and what closes the roof are perimeters alone. Tracks are taken
+/// in pieces of at most d; one shows when any of its material does. Pieces between others that show, or at an end, no
+/// longer than d together, are printed with them.
+void append_strips(std::vector<PlannedTrack> strips, const Covering& covering, Unit d, LayerPlan& plan);
+
+/// Something of the layer above that hangs: the part of a centre line, and how far from it what holds it up may be.
+struct StripReach {
+    Segment stretch;
+    double reach;  ///< lattice units: half the width of what hangs, and ρ
+};
+
+/// Prints the parts of the plan's spare tracks that may hold up any of `hanging`: they become tracks of the plan, and
+/// no track is spare any more. Two parts of one strip less than 5 d apart are one: at usual speeds that takes less time
+/// than a travel. Parts begin and end at most d from where they must, at points of the lattice (a choice).
+void print_strips_under(const std::vector<StripReach>& hanging, Unit d, LayerPlan& plan);
+
+}  // namespace ribvault
