@@ -167,6 +167,20 @@ void set_rotation(Written& w) {
     for (std::size_t k = 0; k < 3; ++k) w.job.placement.rotate_degrees[k] = parse_rational(parts[k], "--rotate");
 }
 
+/// Options that were given in vain.
+void refuse_without_effect(const Written& w, const CLI::App& command) {
+    const struct {
+        const char* option;
+        bool has_effect;
+        const char* without;
+    } pairs[] = {{"--skirt-distance", w.job.tracks.skirt_loops > 0, "a skirt (--skirt N)"},
+                 {"--support-extruder", w.job.settings.outside(), "external supports (--support external or both)"},
+                 {"--support-temperature", w.job.settings.outside(), "external supports (--support external or both)"}};
+    for (const auto& [option, has_effect, without] : pairs)
+        if (!has_effect && command.get_option(option)->count() > 0)
+            throw Error(ErrorKind::usage, std::string(option) + " has no effect without " + without);
+}
+
 /// Defaults that depend on other settings.
 void complete(Written& w) {
     Settings& s = w.job.settings;
@@ -207,7 +221,8 @@ void complete(Written& w) {
     w.job.layers = path(w.layers), w.job.html = path(w.html);
 }
 
-int run(Written& w) {
+int run(Written& w, const CLI::App& command) {
+    refuse_without_effect(w, command);
     complete(w);
     if (!w.quiet && !w.imported.empty()) std::fprintf(stderr, "%s\n", w.imported.c_str());
     Progress progress(w.quiet);
@@ -257,7 +272,7 @@ std::function<int()> add_generate(CLI::App& app) {
     add_tracks(command, written->job.tracks);
     add_placement(command, *written);
     add_printer(command, written->job.printer);
-    return [written] { return run(*written); };
+    return [written, command] { return run(*written, *command); };
 }
 
 }  // namespace ribvault::cli

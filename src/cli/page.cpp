@@ -12,7 +12,7 @@ namespace {
 
 /// What the user wrote.
 struct Written {
-    std::vector<std::string> runs;
+    std::string run, beside;
     std::string page;
     VerifyJob rules;
     bool quiet = false;
@@ -29,7 +29,8 @@ std::string rule_given(const CLI::App& command) {
 int run(const Written& w, const CLI::App& command) {
     PageJob job;
     job.rule_given = rule_given(command);
-    job.runs.assign(w.runs.begin(), w.runs.end());
+    job.runs.emplace_back(w.run);
+    if (!w.beside.empty()) job.runs.emplace_back(w.beside);
     job.page = w.page;
     job.rules = w.rules;
     Progress progress(w.quiet, "");
@@ -51,11 +52,11 @@ std::function<int()> add_page(CLI::App& app) {
     CLI::App* command = app.add_subcommand("page", "One HTML file to look at a run, or at two side by side");
     command->get_formatter()->column_width(38);
     command
-        ->add_option("run", written->runs,
-                     "layers files of `generate --layers`, or G-code of any slicer, judged as by `verify`")
+        ->add_option("run", written->run,
+                     "a layers file of `generate --layers`, or G-code of any slicer, judged as by `verify`")
         ->required()
-        ->expected(1, 2)
-        ->type_name("FILE [FILE]");
+        ->type_name("FILE");
+    command->add_option("beside", written->beside, "another one, to be shown beside it")->type_name("FILE");
     add_output(command, "-o,--output", written->page, "page to write")->required();
     add_rules(command, written->rules);
     command->add_option("--threads", written->rules.threads, "0: all processors")->check(CLI::Range(0, 1024));

@@ -1,5 +1,6 @@
 """docs/options.md: every option stands in it, ranges end where it says, names are those it gives, and what it says to be refused is."""
 import decimal
+import json
 import os
 import pathlib
 import re
@@ -14,7 +15,12 @@ PAGE = (ROOT / "docs/options.md").read_text()
 NOZZLE, RADIUS = decimal.Decimal("0.4"), decimal.Decimal("0.2")  # mm, what d and rho are when nothing is given
 # What an option needs to have an effect.
 WITH = {"--wall-lines-longer": ("--wall-lines", "2"), "--wall-lines-taller": ("--wall-lines", "2"),
-        "--support-gap": ("--support", "external"), "--support-gap-layers": ("--support", "external")}
+        "--support-gap": ("--support", "external"), "--support-gap-layers": ("--support", "external"),
+        "--support-extruder": ("--support", "external"), "--support-temperature": ("--support", "external"), "--skirt-distance": ("--skirt", "1")}
+
+# Where the report does not call an option's value by its name.
+KEYS = {"--fill-gaps": "gap_fill", "--temperature": "nozzle_temperature_c", "--skirt": "skirt_loops", "--brim": "brim_width_mm",
+        "--pitch": "sampling_pitch_mm", "--branch-bonus": "branch_bonus_length_mm"}
 
 
 def options_of(command):
@@ -86,9 +92,33 @@ class Options(unittest.TestCase):
                     self.accepted(name, choice)
                 self.refused("generate", CUBE, name, "no-such-name")
 
+    def test_what_is_not_given_has_the_default_of_the_page(self):
+        subprocess.run([PROGRAM, "generate", CUBE, "--report", "a.json", "--quiet"], cwd=self.folder, check=True)
+        report = json.loads((self.folder / "a.json").read_text())
+        used = report["settings"] | report["tracks"] | report["printer"]
+        compared = 0
+        for line in PAGE.splitlines():
+            row = re.match(r"\| `(?:-\w,)?(--[a-z-]+)[^`]*` \| .*? \| `?([\w.ρ/ ]+)", line)
+            if not row:
+                continue
+            name, default = row[1], row[2].strip()
+            bare = name[2:].replace("-", "_")
+            keys = [KEYS[name]] if name in KEYS else [k for k in (bare, *(f"{bare}_{unit}" for unit in ("mm", "c", "mm_s", "percent"))) if k in used]
+            if not keys or isinstance(used[keys[0]], (bool, list)):
+                continue
+            value = used[keys[0]]
+            if isinstance(value, str):
+                self.assertEqual(default, value, name)
+            elif re.fullmatch(r"[\d.]+|([\d.]+ )?d( / \d+)?|ρ", default):
+                self.assertEqual(limit(default), decimal.Decimal(str(value)), name)
+            else:
+                continue
+            compared += 1
+        self.assertGreater(compared, 40)
+
     def test_what_has_no_effect_is_refused(self):
         for arguments in (["--no-shrink"], ["--no-trim"], ["--no-doubling"], ["--strategy", "thrifty", "--no-straighten"],
-                          ["--strategy", "thrifty", "--straighten-step", "0.1"], ["--wall-lines-longer", "3"], ["--wall-lines-taller", "3"],
+                          ["--strategy", "thrifty", "--straighten-step", "0.1"], ["--skirt-distance", "2"], ["--support-extruder", "1"], ["--support-temperature", "210"], ["--wall-lines-longer", "3"], ["--wall-lines-taller", "3"],
                           ["--branch-bonus", "1", "--no-branch-bonus"], ["--support-gap", "0.2"], ["--bed-only"], ["--overlap", "0.99"]):
             self.assertIn(next(a for a in arguments if a.startswith("--") and a != "--strategy"), self.refused("generate", CUBE, *arguments))
         self.accepted("--strategy", "thrifty", "--no-shrink", "--no-straighten")

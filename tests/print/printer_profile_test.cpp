@@ -165,6 +165,10 @@ TEST_CASE("what a PrusaSlicer config says and cannot be, or names and does not h
     import_prusaslicer("brim_type = no_brim\nbrim_width = 5\nname = mine\n", "c.ini", s, t, p);
     CHECK(t.brim_width == 0);
     CHECK(p.name == "imported from PrusaSlicer");
+    CHECK(
+        import_prusaslicer("perimeters = 1\nthumbnails = 16x16/QOI, 640x480/PNG,220x124\n", "c.ini", s, t, p).ignored ==
+        std::vector<std::string>{"thumbnails (no PNG: 16x16/QOI)"});
+    CHECK(p.thumbnails == " 640x480/PNG,220x124");
     import_prusaslicer("brim_type = outer_only\nbrim_width = 5\n", "c.ini", s, t, p);
     CHECK(t.brim_width == 5 * units_per_mm);
 }

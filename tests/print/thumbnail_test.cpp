@@ -68,6 +68,6 @@ TEST_CASE("sizes as people and PrusaSlicer write them") {
     CHECK(thumbnail_sizes("16x16, 220x124/PNG") == Sizes{{16, 16}, {220, 124}});
     CHECK(thumbnail_sizes("none").empty());
     CHECK(thumbnail_sizes("").empty());
-    for (const char* bad : {"220", "0x4", "axb", "16x16,", "2000x16", "16x16x16"})
+    for (const char* bad : {"220", "0x4", "axb", "16x16,", "2000x16", "16x16x16", "16x16/QOI"})
         CHECK_THROWS_AS(thumbnail_sizes(bad), Error);
 }

@@ -1,7 +1,6 @@
 #include "ribvault/print/import_prusaslicer.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -28,29 +27,16 @@ std::string first_of(const std::string& list) {
     return first;
 }
 
-double number(const std::string& list) {
-    const std::string text = first_of(list);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || text.empty() || !std::isfinite(value))
-        throw Error(ErrorKind::usage, "'" + text + "' is not a number");
-    if (*end == '%') throw Ignored{"a percentage"};
-    if (end != text.data() + text.size()) throw Error(ErrorKind::usage, "'" + text + "' is not a number");
-    return value;
-}
-
-int whole(const std::string& list) {
-    const double value = number(list);
-    if (value != std::floor(value) || std::fabs(value) > 1e6)
-        throw Error(ErrorKind::usage, "'" + first_of(list) + "' is not a whole number of at most 1000000");
-    return static_cast<int>(value);
-}
-
-Unit length_in(const std::string& list) {
-    const std::string text = first_of(list);
+/// The first value, which must be no percentage.
+std::string plain(const std::string& list) {
+    std::string text = first_of(list);
     if (text.find('%') != std::string::npos) throw Ignored{"a percentage"};
-    return parse_length(text, "length");
+    return text;
 }
+
+double number(const std::string& list) { return number_in(plain(list)); }
+int whole(const std::string& list) { return whole_number_in(plain(list)); }
+Unit length_in(const std::string& list) { return parse_length(plain(list), "length"); }
 
 void take_bed(PrinterSettings& printer, const std::string& shape) {
     double lo_x = INFINITY, lo_y = INFINITY, hi_x = -INFINITY, hi_y = -INFINITY;
@@ -95,6 +81,18 @@ std::optional<std::string> translated(std::string text) {
     std::replace(text.begin(), text.end(), '\x01', '{');
     std::replace(text.begin(), text.end(), '\x02', '}');
     return text;
+}
+
+/// PrusaSlicer 2.7 names a format after each size: 16x16/QOI, 640x480/PNG.
+void take_thumbnails(std::string& thumbnails, const std::string& value) {
+    std::istringstream sizes(value);
+    std::string kept, left_out;
+    for (std::string size; std::getline(sizes, size, ',');) {
+        std::string& list = size.find('/') == std::string::npos || size.ends_with("/PNG") ? kept : left_out;
+        (list += list.empty() ? "" : ",") += size;
+    }
+    thumbnails = kept;
+    if (!left_out.empty()) throw Ignored{"no PNG: " + left_out};
 }
 
 void take_gcode(std::string& target, const std::string& value) {
@@ -201,7 +199,7 @@ const std::map<std::string, Field>& fields() {
             {"travel_speed", speed(&P::travel_speed)},
             {"retract_length", printer_number(&P::retraction)},
             {"retract_speed", printer_number(&P::retraction_speed)},
-            {"thumbnails", [](Target to, const std::string& v) { to.p.thumbnails = v; }},
+            {"thumbnails", [](Target to, const std::string& v) { take_thumbnails(to.p.thumbnails, v); }},
             {"start_gcode", [](Target to, const std::string& v) { take_gcode(to.p.start_gcode, v); }},
             {"end_gcode", [](Target to, const std::string& v) { take_gcode(to.p.end_gcode, v); }},
             {"machine_limits_usage", [](Target to, const std::string& v) { to.p.write_limits = v == "emit_to_gcode"; }},

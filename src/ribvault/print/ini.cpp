@@ -1,5 +1,8 @@
 #include "ribvault/print/ini.hpp"
 
+#include <charconv>
+#include <cmath>
+
 #include "ribvault/error.hpp"
 
 namespace ribvault {
@@ -39,6 +42,21 @@ std::vector<IniEntry> read_ini(std::string_view text, const std::string& name) {
                            std::string(trimmed(line.substr(equals + 1))), number});
     }
     return entries;
+}
+
+double number_in(std::string_view text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+        throw Error(ErrorKind::usage, "'" + std::string(text) + "' is not a number");
+    return value;
+}
+
+int whole_number_in(std::string_view text) {
+    const double value = number_in(text);
+    if (value != std::floor(value) || std::fabs(value) > 1e6)
+        throw Error(ErrorKind::usage, "'" + std::string(text) + "' is not a whole number of at most 1000000");
+    return static_cast<int>(value);
 }
 
 std::string unescaped(std::string_view value) {

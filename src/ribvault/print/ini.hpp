@@ -18,6 +18,10 @@ struct IniEntry {
 /// a line that is none of these.
 std::vector<IniEntry> read_ini(std::string_view text, const std::string& name);
 
+/// The text as a number, a whole number of at most a million. Throws Error (usage) that quotes it when it is none.
+double number_in(std::string_view text);
+int whole_number_in(std::string_view text);
+
 /// `\n`, `\t`, `\"` and `\\` as the characters they stand for; outer quotes taken off.
 std::string unescaped(std::string_view value);
 

@@ -1,7 +1,5 @@
 #include "ribvault/print/printer_profile.hpp"
 
-#include <charconv>
-#include <cmath>
 #include <functional>
 #include <map>
 
@@ -12,29 +10,10 @@
 namespace ribvault {
 namespace {
 
-/// Why a value cannot be, in the words that follow the key.
-struct Refusal {
-    std::string why;
-};
-
-double number(const std::string& text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        throw Refusal{"'" + text + "' is not a number"};
-    return value;
-}
-
-int whole(const std::string& text) {
-    const double value = number(text);
-    if (value != std::floor(value) || std::fabs(value) > 1e6) throw Refusal{"'" + text + "' is not a whole number"};
-    return static_cast<int>(value);
-}
-
 bool yes_or_no(const std::string& text) {
     if (text == "yes" || text == "true" || text == "1") return true;
     if (text == "no" || text == "false" || text == "0") return false;
-    throw Refusal{"'" + text + "' is neither yes nor no"};
+    throw Error(ErrorKind::usage, "'" + text + "' is neither yes nor no");
 }
 
 template <std::size_t N>
@@ -44,11 +23,12 @@ std::array<double, N> numbers(const std::string& text, const char* example) {
     for (std::size_t k = 0; k < N; ++k) {
         const std::size_t comma = text.find(',', from);
         if ((comma == std::string::npos) != (k + 1 == N))
-            throw Refusal{"'" + text + "' are not " + std::to_string(N) + " numbers; write for example " + example};
+            throw Error(ErrorKind::usage,
+                        "'" + text + "' are not " + std::to_string(N) + " numbers; write for example " + example);
         std::string part = text.substr(from, comma - from);
         part.erase(0, part.find_first_not_of(' '));
         part.erase(part.find_last_not_of(' ') + 1);
-        values[k] = number(part);
+        values[k] = number_in(part);
         from = comma + 1;
     }
     return values;
@@ -57,10 +37,10 @@ std::array<double, N> numbers(const std::string& text, const char* example) {
 using Setter = std::function<void(PrinterSettings&, const std::string&)>;
 
 Setter decimal(double PrinterSettings::*member) {
-    return [member](PrinterSettings& p, const std::string& v) { p.*member = number(v); };
+    return [member](PrinterSettings& p, const std::string& v) { p.*member = number_in(v); };
 }
 Setter integer(int PrinterSettings::*member) {
-    return [member](PrinterSettings& p, const std::string& v) { p.*member = whole(v); };
+    return [member](PrinterSettings& p, const std::string& v) { p.*member = whole_number_in(v); };
 }
 Setter flag(bool PrinterSettings::*member) {
     return [member](PrinterSettings& p, const std::string& v) { p.*member = yes_or_no(v); };
@@ -74,7 +54,7 @@ Setter axes(std::array<double, 4> MotionLimits::*member) {
     };
 }
 Setter acceleration(double MotionLimits::*member) {
-    return [member](PrinterSettings& p, const std::string& v) { p.limits.*member = number(v); };
+    return [member](PrinterSettings& p, const std::string& v) { p.limits.*member = number_in(v); };
 }
 
 const std::map<std::string, Setter>& keys() {
@@ -82,7 +62,7 @@ const std::map<std::string, Setter>& keys() {
     static const std::map<std::string, Setter> all{
         {"name",
          [](P& p, const std::string& v) {
-             if (v.empty()) throw Refusal{"the printer has no name"};
+             if (v.empty()) throw Error(ErrorKind::usage, "the printer has no name");
              p.name = v;
          }},
         {"flavour",
@@ -90,7 +70,7 @@ const std::map<std::string, Setter>& keys() {
              if (v == "marlin") p.flavour = Flavour::marlin;
              else if (v == "klipper") p.flavour = Flavour::klipper;
              else if (v == "reprapfirmware") p.flavour = Flavour::reprapfirmware;
-             else throw Refusal{"'" + v + "' is none of marlin, klipper, reprapfirmware"};
+             else throw Error(ErrorKind::usage, "'" + v + "' is none of marlin, klipper, reprapfirmware");
          }},
         {"bed",
          [](P& p, const std::string& v) {
@@ -150,8 +130,6 @@ PrinterSettings read_profile(std::string_view text, const std::string& name) {
         try {
             key->second(printer, entry.value);
             check_printer(printer);
-        } catch (const Refusal& refusal) {
-            refuse(refusal.why);
         } catch (const Error& error) {
             const std::string why = error.what(), prefix = entry.key + ": ";
             refuse(why.starts_with(prefix) ? why.substr(prefix.size()) : why);

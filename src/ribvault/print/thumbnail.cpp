@@ -71,13 +71,13 @@ std::vector<std::array<int, 2>> thumbnail_sizes(const std::string& text) {
     for (std::size_t from = 0; from <= text.size();) {
         const std::size_t comma = std::min(text.find(',', from), text.size());
         std::string part = text.substr(from, comma - from);
-        if (const std::size_t slash = part.find('/'); slash != std::string::npos) part.resize(slash);
+        if (part.ends_with("/PNG")) part.resize(part.size() - 4);
         int width = 0, height = 0;
         char rest = 0;
         if (part.size() > 11 || std::sscanf(part.c_str(), " %dx%d %c", &width, &height, &rest) != 2 || width < 1 ||
             height < 1 || width > 1000 || height > 1000)
             throw Error(ErrorKind::usage,
-                        "thumbnails: '" + part + "' is no size; write for example 220x124, sides up to 1000");
+                        "thumbnails: '" + part + "' is no size of a PNG; write for example 220x124, sides up to 1000");
         sizes.push_back({width, height});
         from = comma + 1;
     }
