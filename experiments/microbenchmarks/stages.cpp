@@ -82,7 +82,7 @@ void register_stages(const SweptModel& model) {
         LayerPlan plan;
         plan.layer = static_cast<int>(k);
         const LayerMaterial& own = layers[k].swept.material;
-        append_shell_paths(*own.slice, own.cavity->region, model.settings, model.tracks, plan);
+        append_shell_paths(*own.slice, own.cavity->region, model.settings, model.tracks, plan, covering_of(model, k));
         benchmark::DoNotOptimize(plan);
     });
     stage(model, "hold", 0, n - 1, [&](std::size_t k) {

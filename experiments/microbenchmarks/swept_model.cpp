@@ -8,6 +8,11 @@
 
 using namespace ribvault;
 
+Covering covering_of(const SweptModel& model, std::size_t k) {
+    if (k == 0 || k + 1 == model.layers.size()) return {};
+    return {model.layers[k + 1].swept.material.slice, model.layers[k - 1].swept.material.slice};
+}
+
 SweptModel sweep_model(const std::filesystem::path& file, const PlacementOptions& placement) {
     SweptModel model;
     model.file = file;
@@ -21,8 +26,6 @@ SweptModel sweep_model(const std::filesystem::path& file, const PlacementOptions
         layer.swept = swept;
         layer.eroded = erode_slice(*swept.material.slice, model.settings);
         layer.shell.layer = swept.material.layer;
-        append_shell_paths(*swept.material.slice, swept.material.cavity->region, model.settings, model.tracks,
-                           layer.shell);
         for (const Contour& contour : swept.material.slice->rounded) layer.vertices += contour.size();
         return nullptr;
     };
@@ -31,6 +34,9 @@ SweptModel sweep_model(const std::filesystem::path& file, const PlacementOptions
         [] { return false; });
     for (std::size_t k = 0; k < model.layers.size(); ++k) {
         model.vertices += model.layers[k].vertices;
+        const LayerMaterial& material = model.layers[k].swept.material;
+        append_shell_paths(*material.slice, material.cavity->region, model.settings, model.tracks,
+                           model.layers[k].shell, covering_of(model, k));
         if (k + 1 == model.layers.size()) continue;
         const LayerMaterial &own = model.layers[k].swept.material, &above = model.layers[k + 1].swept.material;
         model.layers[k].overhang = overhang_over_cavity(*own.cavity, *above.slice, *above.cavity, model.settings);

@@ -7,6 +7,7 @@
 
 #include "ribvault/mesh/place_mesh.hpp"
 #include "ribvault/pipeline/sweep_layers.hpp"
+#include "ribvault/print/gap_strips.hpp"
 
 /// One layer: what the stages read and make. Everything is there but on the lowest layer (no `below`).
 struct Layer {
@@ -27,6 +28,9 @@ struct SweptModel {
     std::vector<Layer> layers;  ///< from the bottom
     std::size_t vertices = 0, triangles = 0;
 };
+
+/// The slices that cover layer k of a model with one cover on either side.
+ribvault::Covering covering_of(const SweptModel& model, std::size_t k);
 
 /// Reads, places and sweeps a model with the default settings. Throws what these throw.
 SweptModel sweep_model(const std::filesystem::path& file, const ribvault::PlacementOptions& placement);

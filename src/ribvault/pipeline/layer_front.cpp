@@ -108,7 +108,7 @@ void LayerFront::gather(Token& token) {
     bool complete = layer + up < layers_ && layer - down >= 0;  // missing layers count as empty
     for (int j = layer + up; complete && j >= layer - down; --j) {
         token.eroded.push_back(at(j).region);
-        if (j != layer) token.covering.push_back(at(j).slice);
+        if (j != layer && up > 0 && down > 0 && settings_.inside()) token.covering.push_back(at(j).slice);
     }
     Eroded& own = window_[static_cast<std::size_t>(window_top_ - layer)];
     token.material.layer = layer;

@@ -50,7 +50,7 @@ struct Token {
     Eroded own;
     int layer = -1;  ///< the layer whose cavity this token computes; -1: none yet, or none any more
     std::vector<std::shared_ptr<const Region>> eroded;  ///< slices layer - k .. layer + k; empty where one is missing
-    Covering covering;  ///< the slices of `eroded` but the layer's own
+    Covering covering;  ///< the slices of `eroded` but the layer's own; none unless they hollow it from both sides
     LayerMaterial material, above;
     Region overhang, overhang_outside;
     std::shared_ptr<SweptLayer> swept;                   ///< the layer above `layer`, complete now

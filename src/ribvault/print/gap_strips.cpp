@@ -14,6 +14,7 @@ struct Piece {
     TrackKind kind;
     Unit width;
     Segment centre;
+    bool cut = false;  ///< begins within a step of the track
     bool chosen = false;
 };
 
@@ -26,7 +27,7 @@ std::vector<Piece> pieces_of(const PlannedTrack& track, Unit longest) {
             Point from = a;
             for (int part = 1; part <= parts; ++part) {
                 const Point to = part == parts ? b : part_way(a, b, static_cast<double>(part) / parts);
-                if (to != from) pieces.push_back({path.kind, path.width, {from, to}});
+                if (to != from) pieces.push_back({path.kind, path.width, {from, to}, part > 1});
                 from = to;
             }
         }
@@ -55,9 +56,14 @@ void append_runs(const std::vector<Piece>& pieces, bool chosen, Entry entry, std
             open = false;
             continue;
         }
+        const bool goes_on = open && piece.cut;
         if (!open) tracks.push_back({{}, entry, no_stop});
         open = true;
         std::vector<ToolPath>& paths = tracks.back().paths;
+        if (goes_on) {
+            paths.back().points.back() = piece.centre.b;
+            continue;
+        }
         if (paths.empty() || paths.back().width != piece.width)
             paths.push_back({piece.kind, piece.width, false, {piece.centre.a}});
         paths.back().points.push_back(piece.centre.b);
@@ -72,6 +78,7 @@ double area_of(std::vector<PlannedTrack>::const_iterator from, std::vector<Plann
     return area;
 }
 
+/// The outlines of the covering slices.
 class CoveringOutlines {
 public:
     explicit CoveringOutlines(const Covering& covering) {
@@ -84,22 +91,18 @@ public:
         edges_ = NearestSegment(std::move(all));
     }
 
-    /// Does all of the piece's material lie in each of the outlines? `first`, `last`: of its track, with a round end.
-    bool hide(const Piece& piece, bool first, bool last) const {
-        const Segment& c = piece.centre;
-        const double half = static_cast<double>(piece.width) / (2 * length(c));
-        const Point on = part_way({}, c.b - c.a, half), side = part_way({}, {c.a.y - c.b.y, c.b.x - c.a.x}, half),
-                    from = first ? c.a - on : c.a, to = last ? c.b + on : c.b;
-        const Point corners[] = {from + side, to + side, to - side, from - side};
-        if (std::any_of(outlines_.begin(), outlines_.end(),
-                        [&](const PointLocation& outline) { return outline.locate(c.a) == Side::outside; }))
+    /// Does all of the piece's material, its ends round, lie in each of the outlines?
+    bool hide(const Piece& piece) const {
+        if (std::any_of(outlines_.begin(), outlines_.end(), [&](const PointLocation& outline) {
+                return outline.locate(piece.centre.a) == Side::outside;
+            }))
             return false;
         Box box;
-        for (const Point p : corners) box.add(p);
+        box.add(piece.centre.a), box.add(piece.centre.b);
+        box.grow(piece.width / 2);
         bool touched = false;
         edges_.visit(box, [&](std::uint32_t k) {
-            for (std::size_t corner = 0; corner < 4 && !touched; ++corner)
-                touched = segments_touch(edges_.segments()[k], {corners[corner], corners[(corner + 1) % 4]});
+            if (!touched) touched = compare_distance(edges_.segments()[k], piece.centre, piece.width / 2) < 0;
         });
         return !touched;
     }
@@ -112,6 +115,7 @@ private:
 }  // namespace
 
 void append_strips(std::vector<PlannedTrack> strips, const Covering& covering, Unit d, LayerPlan& plan) {
+    if (strips.empty()) return;
     if (covering.empty()) {
         std::move(strips.begin(), strips.end(), std::back_inserter(plan.tracks));
         return;
@@ -121,7 +125,7 @@ void append_strips(std::vector<PlannedTrack> strips, const Covering& covering, U
     for (const PlannedTrack& strip : strips) {
         std::vector<Piece> pieces = pieces_of(strip, d);
         for (Piece& piece : pieces)
-            piece.chosen = !outlines.hide(piece, &piece == &pieces.front(), &piece == &pieces.back());
+            piece.chosen = !outlines.hide(piece);
         close_up(pieces, static_cast<double>(d), true);
         append_runs(pieces, true, strip.entry, plan.tracks);
         append_runs(pieces, false, strip.entry, plan.spare);

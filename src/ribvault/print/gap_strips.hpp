@@ -9,7 +9,8 @@
 
 namespace ribvault {
 
-/// The slices that cover layer i, i - k .. i + k without i (MODEL: sets); none when any of them is missing.
+/// The slices that cover layer i, i - k .. i + k without i (MODEL: sets), at least one on either side; none when any of
+/// them is missing, or when the layer is solid whatever they are.
 using Covering = std::vector<std::shared_ptr<const Slice>>;
 
 /// Enters tracks of strips between perimeters, covers and cavity in a plan: what shows in its tracks, the rest in

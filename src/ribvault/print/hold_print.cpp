@@ -26,7 +26,10 @@ Lane lane_of(const PrintedTrack& track) {
 /// Walls that end at strips of the shell in which nothing is printed (print/gap_strips.hpp, or narrower than d / 2) go
 /// on through them until they overlap the next track by d / 4, as slicers let their infill overlap perimeters.
 void reach_shell(const LayerPlan& shell, const Settings& settings, SupportForest& forest) {
-    const PlanTracks tracks(shell);
+    LayerPlan object;  // without the tracks of walls of several lines
+    for (const PlannedTrack& track : shell.tracks)
+        if (!is_support(track.paths.front().kind)) object.tracks.push_back(track);
+    const PlanTracks tracks(object);
     if (tracks.segments().empty()) return;
     const auto d = static_cast<double>(settings.nozzle);
     for (std::size_t v = 0, before = num_vertices(forest); v < before; ++v) {
@@ -34,7 +37,7 @@ void reach_shell(const LayerPlan& shell, const Settings& settings, SupportForest
         if (!root.root || root.free || root.outside || out_degree(v, forest) != 1) continue;
         const NearestSegment::Hit hit = tracks.segments().nearest(root.at);
         const PlanTracks::Place place = tracks.place(hit.index);
-        const double half = static_cast<double>(shell.tracks[place.track].paths[place.path].width) / 2,
+        const double half = static_cast<double>(object.tracks[place.track].paths[place.path].width) / 2,
                      wanted = half + d / 4, far = std::sqrt(hit.distance.value());
         if (far <= wanted + d / 40 || far > half + 2 * d) continue;
         const Point end =

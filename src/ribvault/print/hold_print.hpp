@@ -43,6 +43,10 @@ struct HeldLayer {
 /// point of `above`, the print of layer i + 1 (nullptr: there is none), that lies inside the outline of this layer has
 /// material within ρ (verify/outside_outline.hpp). `above` and `settings` must outlive the judgement.
 ///
+/// Of the shell's spare tracks (print/gap_strips.hpp) those parts are printed that may hold up what hangs without them.
+/// Walls of one line whose root has one wall go on through what stays open of the shell until they overlap its next
+/// track by d / 4, with any gaps.
+///
 /// First with the gaps of Section 4.4. Where the verifier finds something of `above` that these leave unsupported, the
 /// branches nearby are printed up to their junction (settings.gaps == Gaps::proved; with Gaps::paper nothing is done
 /// and the verdict will say what the gaps cost, with Gaps::none there are none from the start). Where that is not

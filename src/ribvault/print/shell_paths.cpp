@@ -188,13 +188,16 @@ void append_covers(const Region& area, Unit w, bool falling, CoverPattern patter
 
 /// What the covers, the plan's tracks from `first_cover` on, print, and `more` around it.
 Region printed_covers(const LayerPlan& plan, std::size_t first_cover, double more) {
-    std::map<Unit, std::vector<Segment>> lines;  // by width
+    std::map<Unit, std::vector<Contour>> lines;  // by width
     for (std::size_t k = first_cover; k < plan.tracks.size(); ++k)
-        for (const ToolPath& path : plan.tracks[k].paths) append_segments(path, lines[path.width]);
+        for (const ToolPath& path : plan.tracks[k].paths) {
+            lines[path.width].push_back(path.points);
+            if (path.closed) lines[path.width].back().push_back(path.points.front());
+        }
     Region printed;
-    for (const auto& [width, segments] : lines) {
+    for (const auto& [width, of_width] : lines) {
         const auto w = static_cast<double>(width);
-        for (Contour& c : offset(segments, w / 2 + more, w / 20)) printed.push_back(std::move(c));
+        for (Contour& c : offset_lines(of_width, w / 2 + more, w / 20)) printed.push_back(std::move(c));
     }
     return printed;
 }
@@ -206,20 +209,21 @@ void append_gap_fill(const Region& outline, const Region& cavity, int perimeters
     const double width = static_cast<double>(w);
     constexpr double apart = 10;  // lattice units: keeps Clipper away from nearly coincident borders
     const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - 2 * apart), cavity);
-    const Region filled = printed_covers(plan, first_cover, 2 * apart);
-    if (signed_area(room) - signed_area(filled) < width * width / 16) return;
-    const Region left = clip(cl::ctDifference, room, filled);
+    if (signed_area(room) < width * width / 16) return;
+    const Region left = clip(cl::ctDifference, room, printed_covers(plan, first_cover, 2 * apart));
     plan.unfilled_area += signed_area(left);
     if (which == GapFill::none) return;
     // Only where a track of w / 2 has room; most strips are narrower all along.
     const Region wide = clip(cl::ctIntersection, mitred(mitred(left, -width / 4), width / 4 + apart), left);
+    std::vector<PlannedTrack> strips;
     for (const Region& piece : connected_pieces(wide)) {
         const double area = signed_area(piece);
         if (area < width * width / 2) continue;
-        std::vector<PlannedTrack> strips = medial_tracks(piece, w, TrackKind::thin_wall);
-        if (!strips.empty()) plan.unfilled_area -= area;
-        append_strips(std::move(strips), which == GapFill::needed ? covering : Covering(), w, plan);
+        std::vector<PlannedTrack> along = medial_tracks(piece, w, TrackKind::thin_wall);
+        if (!along.empty()) plan.unfilled_area -= area;
+        std::move(along.begin(), along.end(), std::back_inserter(strips));
     }
+    append_strips(std::move(strips), which == GapFill::needed ? covering : Covering(), w, plan);
 }
 
 }  // namespace

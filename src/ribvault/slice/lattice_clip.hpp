@@ -71,6 +71,16 @@ inline Region offset(const std::vector<Segment>& lines, double distance, double 
     return from_clipper(around);
 }
 
+/// What lies within `distance` of open polylines, alike.
+inline Region offset_lines(const std::vector<Contour>& lines, double distance, double arc_tolerance) {
+    ClipperLib::ClipperOffset offsetter(2.0, arc_tolerance);
+    for (const Contour& line : lines)
+        offsetter.AddPath(to_clipper(line), ClipperLib::jtRound, ClipperLib::etOpenRound);
+    ClipperLib::Paths around;
+    offsetter.Execute(around, distance);
+    return from_clipper(around);
+}
+
 /// Region moved outwards (delta > 0) or inwards (delta < 0) by |delta| units.
 inline Region offset(const Region& region, double delta, ClipperLib::JoinType join = ClipperLib::jtSquare,
                      double arc_tolerance = 25) {
