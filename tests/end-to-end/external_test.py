@@ -40,6 +40,17 @@ class External(unittest.TestCase):
         self.run_program("generate", self.table, "-o", "a.gcode", "--quiet")
         self.assertEqual(self.run_program("verify", "a.gcode").returncode, 1)
 
+    def test_a_solid_object_is_solid_whatever_gaps_are_filled(self):
+        plate = self.folder / "plate.stl"
+        write_stl(plate, box((0, 0, 0), (20, 1.15, 5)))
+        volumes = []
+        for which in ("all", "needed"):
+            done = self.run_program("generate", plate, "--report", "a.json", "--support", "external", "--fill-gaps", which)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            volumes.append(json.loads((self.folder / "a.json").read_text())["totals"]["extruded_mm3"])
+        self.assertEqual(volumes[0], volumes[1])
+        self.assertGreater(volumes[0], 0.95 * 20 * 1.15 * 5)
+
     def test_the_supports_in_the_gcode_keep_the_gap(self):
         done = self.run_program("generate", self.table, "-o", "a.gcode", "--support", "external", "--support-gap", "0.3")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)

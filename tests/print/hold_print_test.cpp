@@ -160,12 +160,12 @@ TEST_CASE("spare strips are printed where something stands on them, and nowhere 
 }
 
 TEST_CASE("a wall goes on through a strip in which nothing is printed until it overlaps the perimeter") {
-    const auto wall_from = [](Unit x) {
+    const auto wall_from = [](Unit x, LayerPlan shell = square_shell()) {
         SupportForest forest;
         const auto root = add_vertex(SupportVertex{{x, 10 * mm}, true}, forest),
                    tip = add_vertex(SupportVertex{{5 * mm, 10 * mm}, false}, forest);
         add_edge(root, tip, forest);
-        const HeldLayer held = hold_print(square_shell(), forest, nullptr, {});
+        const HeldLayer held = hold_print(std::move(shell), forest, nullptr, {});
         const std::vector<Segment> walls = segments_of(held.plan, TrackKind::support);
         double least = HUGE_VAL;
         for (const Segment& wall : walls)
@@ -177,6 +177,10 @@ TEST_CASE("a wall goes on through a strip in which nothing is printed until it o
     CHECK(wall_from(38000) == 30000);
     CHECK(wall_from(55000) == 30000);
     CHECK(wall_from(2 * mm) == 2 * mm);  // not a strip
+    // The lines beside a wall of several are no shell.
+    LayerPlan beside = square_shell();
+    beside.tracks.push_back(track(TrackKind::support, false, {{55000, 10 * mm + 40000}, {5 * mm, 10 * mm + 40000}}));
+    CHECK(wall_from(55000, beside) == 30000);
 }
 
 TEST_CASE("what hangs outside the outline is measured, not patched") {

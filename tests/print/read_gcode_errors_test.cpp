@@ -24,12 +24,19 @@ TEST_CASE("malformed lines: which line, and what was expected", "[gcode][errors]
     CHECK_THAT(complaint(good + "G1 X.1234567890123456789 E1\n"),
                Contains("line 4") && Contains("more than 18 decimals"));
     CHECK_THAT(complaint(good + "G1 X1 {temperature}\n"), Contains("line 4") && Contains("'{temperature}'"));
-    CHECK_THAT(complaint(good + "X20 E1\n"), Contains("line 4") && Contains("expected G0 to G3"));
-    CHECK_THAT(complaint(good + "G90 G1 X20 E1\n"), Contains("line 4") && Contains("a second command"));
-    CHECK_THAT(complaint(good + "N7 G53 G1 X20 E1*12\n"), Contains("line 4") && Contains("a second command"));
-    for (const char* harmless :
-         {"EXCLUDE_OBJECT NAME=a\n", "M117 G1 X20\n", "G90 ; G1\n", "Z_TILT_ADJUST\n", "G29 G1\n"})
-        CHECK(read(good + harmless).layer_count == 1);
+    for (const char* bare : {"X20 E1\n", "x 20 e1\n", "F1200 X20 E1\n", "N7 X20Y5 E1*12\n"})
+        CHECK_THAT(complaint(good + bare), Contains("line 4") && Contains("expected G0 to G3"));
+    for (const char* two : {"G90 G1 X20 E1\n", "N7 G53 G1 X20 E1*12\n", "G1 Y10 G1 X20 E1\n", "G1 X20 E1 G91\n",
+                            "M83 G1 X20 E1\n", "T0 G1 X20 E1\n", "G92 E0 G1 X20\n", "M82 G90\n"})
+        CHECK_THAT(complaint(good + two), Contains("line 4") && Contains("a second command"));
+    CHECK(read(good + "G 1 X20 E1\n").layers[0].tracks.size() == 2);
+    for (const char* harmless : {"EXCLUDE_OBJECT NAME=a\n", "M117 G1 X20\n", "G90 ; G1\n", "Z_TILT_ADJUST\n",
+                                 "G29 G1\n", "E0_HEATER_OFF\n", "Z2_OFFSET\n", "T0 M6\n", "G1 F1200 M106\n"}) {
+        const GcodePrint print = read(good + harmless + "G1 Y5 E1\n");
+        REQUIRE(print.layers.size() == 1);
+        REQUIRE(print.layers[0].tracks.size() == 2);
+        CHECK(to_double(print.layers[0].points[print.layers[0].tracks[1].a].x) == 10);
+    }
     CHECK_THAT(complaint(good + "G92 E-\n"), Contains("line 4") && Contains("number of E"));
     CHECK_THAT(complaint(good + std::string(200, ' ') + "\nG1 X1 \x01\x02 E1\n"),
                Contains("line 5") && Contains("'?? E1'"));

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "print/gcode_text.hpp"
 
 using namespace ribvault;
@@ -43,7 +45,9 @@ TEST_CASE("the lowest layer is as high as it lies over the bed, whatever the usu
     CHECK(height(cura.layers[0]) == Approx(0.3));
     CHECK(cura.layers[0].tracks[0].width == read(moves).layers[0].tracks[0].width);
     CHECK(height(read(moves + "; first_layer_height = 0.2\n").layers[0]) == Approx(0.2));
-    // Nothing on a bed is 5 mm high.
+    // Nothing on a bed is that high.
+    const std::string floats = "; layer_height = 0.2\nM83\nG1 Z.8\nG1 X10 E1\nG1 Z1\nG1 X0 E1\n";
+    CHECK(height(read(floats).layers[0]) == Approx(0.2));
     const std::string high = "M83\nG1 Z5\nG1 X10 E1\nG1 Z5.1\nG1 X0 E1\n";
     CHECK(height(read(high + "; layer_height = 0.1\n").layers[0]) == Approx(0.1));
 }
@@ -59,6 +63,11 @@ TEST_CASE("tops that differ by rounding are one layer", "[gcode]") {
         CHECK(to_double(layer.points[track.a].x + layer.points[track.b].x) == 110);
     }
     CHECK(read("M83\nG1 Z.2\nG1 X10 E1\nG1 Z.206\nG1 X0 E1\n").layers.size() == 2);
+    // Heights tell which of two tops that are nearly alike something lies on.
+    const GcodePrint said =
+        read(";TYPE:a\n;HEIGHT:0.2\nM83\nG1 Z.2\nG1 X10 E1\nG1 Z.204\nG1 X0 E1\nG1 Z.404\nG1 X10 E1\n");
+    REQUIRE(said.layers.size() == 3);
+    CHECK(said.layers[2].below == std::vector<std::size_t>{0, 1});
 }
 
 TEST_CASE("layers much thinner than most for want of heights in the file are counted", "[gcode]") {
@@ -68,8 +77,21 @@ TEST_CASE("layers much thinner than most for want of heights in the file are cou
         if (k > 4) support += "G1 Z" + std::to_string(0.2 * k + 0.03) + "\nG1 X30\nG1 X40 E1\n";
     }
     CHECK(read(object).thin_layers == 0);
-    CHECK(read(object + support).thin_layers == 4);
+    CHECK(read(object + support).thin_layers == 3);
     CHECK(read(";TYPE:a\n;HEIGHT:0.2\n" + object + support).thin_layers == 0);
+}
+
+TEST_CASE("a vase climbs from the first move over a layer on", "[gcode]") {
+    std::string vase = "M83\nG1 Z.2\n";
+    for (int k = 0; k <= 400; ++k) {
+        const double angle = k * std::numbers::pi / 100, z = 0.2 + 0.2 * std::max(0, k - 200) / 200;
+        vase += "G1 X" + std::to_string(10 * std::cos(angle)) + " Y" + std::to_string(10 * std::sin(angle)) + " Z" +
+                std::to_string(z) + " E1\n";
+    }
+    const GcodePrint print = read(vase);
+    REQUIRE(print.layers.size() == 2);
+    CHECK(print.layers[0].tracks.size() == 201);
+    CHECK(print.layers[1].tracks.size() == 200);
 }
 
 TEST_CASE("a climb of less than slicers round stays in its layer", "[gcode]") {

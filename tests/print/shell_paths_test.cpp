@@ -380,6 +380,14 @@ TEST_CASE("a strip that shows from nowhere is spare, as far as the covering slic
     // Of this one the outer edge shows.
     CHECK(along(plan_with(steep, GapFill::needed).spare) == 0);
     CHECK(along(plan_with({}, GapFill::needed).tracks) == whole);
+    // What is printed whole is not cut into the pieces that were looked at.
+    const auto points = [](const LayerPlan& plan) {
+        std::vector<std::vector<Point>> all_points;
+        for (const PlannedTrack& track : plan.tracks)
+            for (const ToolPath& path : track.paths) all_points.push_back(path.points);
+        return all_points;
+    };
+    CHECK(points(plan_with(steep, GapFill::needed)) == points(all));
     const LayerPlan part = plan_with(step, GapFill::needed);
     CHECK(along(part.tracks) + along(part.spare) == Approx(whole).margin(10));
     CHECK(along(part.spare) == Approx(11.5 * mm).margin(0.5 * mm));

@@ -129,13 +129,11 @@ private:
                 job_.warn("the lowest layer begins " + std::to_string(top - height) +
                           " mm over z = 0; it counts as lying on the bed all the same");
         }
-        if (print_.thin_layers > 0)
+        if (print_.thin_layers > 2)
             job_.warn(
                 "the file does not say how high layers are, and " + std::to_string(print_.thin_layers) +
-                " come out at most half as high as one beside them when that is taken from the next lower one, as "
-                "where "
-                "objects or supports have layers of their own; such a file cannot be judged rightly, export it with "
-                ";HEIGHT: comments");
+                " come out at most half as high as those beside them, as where objects or supports have layers of "
+                "their own; then it cannot be judged rightly: export it with ;HEIGHT: comments");
         if (print_.widths_computed > 0 && report_.filament_source == "default")
             job_.warn(
                 "widths are computed from E with filament of 1.75 mm, as the file names none; --filament-diameter says "

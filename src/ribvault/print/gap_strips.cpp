@@ -133,10 +133,10 @@ void append_strips(std::vector<PlannedTrack> strips, const Covering& covering, U
     plan.unfilled_area += area_of(plan.spare.begin() + static_cast<std::ptrdiff_t>(before), plan.spare.end());
 }
 
-void print_strips_under(const std::vector<StripReach>& hanging, Unit d, LayerPlan& plan) {
+bool print_strips_under(const std::vector<StripReach>& hanging, Unit d, LayerPlan& plan) {
     const std::vector<PlannedTrack> spare = std::move(plan.spare);
     plan.spare.clear();
-    if (spare.empty() || hanging.empty()) return;
+    if (spare.empty() || hanging.empty()) return false;
     std::vector<Segment> stretches;
     double farthest = 0;
     for (const StripReach& h : hanging) stretches.push_back(h.stretch), farthest = std::max(farthest, h.reach);
@@ -158,6 +158,7 @@ void print_strips_under(const std::vector<StripReach>& hanging, Unit d, LayerPla
         append_runs(pieces, true, strip.entry, plan.tracks);
     }
     plan.unfilled_area -= area_of(plan.tracks.begin() + static_cast<std::ptrdiff_t>(before), plan.tracks.end());
+    return plan.tracks.size() > before;
 }
 
 }  // namespace ribvault

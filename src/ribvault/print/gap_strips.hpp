@@ -31,7 +31,8 @@ struct StripReach {
 
 /// Prints the parts of the plan's spare tracks that may hold up any of `hanging`: they become tracks of the plan, and
 /// no track is spare any more. Two parts of one strip less than 5 d apart are one: at usual speeds that takes less time
-/// than a travel. Parts begin and end at most d from where they must, at points of the lattice (a choice).
-void print_strips_under(const std::vector<StripReach>& hanging, Unit d, LayerPlan& plan);
+/// than a travel. Parts begin and end at most d from where they must, at points of the lattice (a choice). Are there
+/// any?
+bool print_strips_under(const std::vector<StripReach>& hanging, Unit d, LayerPlan& plan);
 
 }  // namespace ribvault

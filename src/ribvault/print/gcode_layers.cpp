@@ -14,7 +14,7 @@ constexpr std::int64_t pm_per_mm = 1000000000;     // 1e-9 mm
 constexpr Int128 decimal_per_pm = decimal_one / pm_per_mm;
 constexpr std::int64_t widest = 100 * pm_per_mm;
 constexpr Int128 z_rounding = decimal_one / 200;       // 0.005 mm, as slicers round
-constexpr std::int64_t thickest_first = 1 * pm_per_mm; // a layer on the bed is no higher
+constexpr std::int64_t thick_first = pm_per_mm / 2;    // a layer on the bed may be as high
 
 std::int64_t in_pm(Int128 z) { return static_cast<std::int64_t>(z / decimal_per_pm); }
 
@@ -69,7 +69,7 @@ void LayerCollector::extrude(const Extrusion& e) {
         file(group({e.to[2].value, e.height.value_or(0)}), e, width, continues);
         return;
     }
-    climbing_.push_back({e, width, continues});
+    climbing_.push_back({e, width, continues, paths_});
     if (climbs) level_from_ = climbing_.size();
     climbed_ = true;
 }
@@ -86,6 +86,7 @@ void LayerCollector::file_level_end() {
 void LayerCollector::end_path() {
     if (!in_path_) return;
     in_path_ = flow_open_ = false;
+    ++paths_;
     if (!climbed_) return;
     file_level_end();
     climbed_ = false;
@@ -115,14 +116,21 @@ void LayerCollector::file_climbs(const LayerHints& hints) {
     else if (level.size() >= 2) step = level.back() - level[level.size() - 2];
     else if (level.size() == 1) step = level.back();
     if (step <= 0) step = decimal_one / 5;
+    const auto top_of = [](const Climb& c) { return std::max(c.extrusion.from[2].value, c.extrusion.to[2].value); };
+    std::map<std::uint64_t, Int128> tops;  // of paths
     for (const Climb& c : climbing_) {
-        const Int128 top = std::max(c.extrusion.from[2].value, c.extrusion.to[2].value);
+        const auto [at, is_new] = tops.try_emplace(c.path, top_of(c));
+        if (!is_new) at->second = std::max(at->second, top_of(c));
+    }
+    for (const Climb& c : climbing_) {
+        const Int128 top = top_of(c);
         const auto above = std::lower_bound(level.begin(), level.end(), top);
         const Int128 under = above == level.begin() ? 0 : *std::prev(above);
         Int128 z = under + std::max<Int128>(1, (top - under + step - 1) / step) * step;
-        if (above != level.begin() && top - under <= z_rounding)
-            z = under;
-        else if (above != level.end() && (*above - top < step || z > *above)) z = *above;
+        if (above != level.begin() && tops[c.path] - under <= z_rounding)
+            z = under;  // the path as a whole climbs no higher than slicers round
+        else if (above != level.end() && (*above - top < step || z > *above))
+            z = *above;
         file(group({z, c.extrusion.height.value_or(0)}), c.extrusion, c.width, c.continues);
     }
     climbing_.clear();
@@ -130,6 +138,8 @@ void LayerCollector::file_climbs(const LayerHints& hints) {
 }
 
 void LayerCollector::merge_rounded() {
+    // Where the file says heights, these tell what is below.
+    if (std::any_of(groups_.begin(), groups_.end(), [](const auto& group) { return group.first.height != 0; })) return;
     Groups merged;
     Int128 z = 0;
     for (auto& [key, layer] : groups_) {
@@ -165,7 +175,8 @@ void LayerCollector::resolve_heights(GcodePrint& print, const LayerHints& hints)
         }
         std::int64_t usual = said;
         if (usual == 0 && resolved.empty())
-            usual = hints.first_layer_height.value_or(top <= thickest_first ? top : hints.layer_height.value_or(top));
+            usual = hints.first_layer_height.value_or(
+                top <= std::max(thick_first, 2 * hints.layer_height.value_or(top)) ? top : *hints.layer_height);
         if (usual == 0) distances.push_back(usual = top - lower);
         if (usual <= 0) usual = hints.layer_height.value_or(pm_per_mm / 5);  // at or below the bed
         for (; at != end; ++at) {
@@ -193,7 +204,7 @@ void LayerCollector::resolve_heights(GcodePrint& print, const LayerHints& hints)
     for (std::size_t k = 0; k < distances.size(); ++k) {
         const std::int64_t before = k > 0 ? distances[k - 1] : 0,
                            after = k + 1 < distances.size() ? distances[k + 1] : 0;
-        print.thin_layers += 2 * distances[k] <= std::max(before, after);
+        print.thin_layers += 2 * distances[k] <= std::min(before, after);
     }
 }
 

@@ -36,7 +36,7 @@ struct LayerHints {
 ///
 /// A path that climbs while it extrudes (a spiral vase, a seam that ramps up) belongs to the layer of level extrusions
 /// that it climbs to, at most one height below it; where there is none, layers of one height are counted on from the
-/// last.
+/// last. A path that as a whole climbs no more than 0.005 mm over a layer belongs to that one.
 class LayerCollector {
 public:
     void extrude(const Extrusion& e);
@@ -49,9 +49,12 @@ public:
     /// The layers by z and height, their widths, what is below each. The collector is empty afterwards.
     ///
     /// Heights: as the file says, except for bridges, which it describes as round threads: theirs is their layer's.
-    /// Where it does not say: the distance to the next lower layer. Widths that the file does not say: pushed volume
-    /// over length times height, the rectangle of the same cross-section, to 1 µm: narrower than the round-edged track
-    /// that is printed by 0.21 times the height. Volumes of stretches below 0.25 mm are pooled, as E is rounded.
+    /// Where it does not say: the distance to the next lower layer; for the lowest one the first layer's height that
+    /// the file names, else the distance to z = 0 unless that is more than 0.5 mm and two layer heights. When a file
+    /// says no heights at all, tops up to 0.005 mm over another are one layer with it. Widths that the file does not
+    /// say: pushed volume over length times height, the rectangle of the same cross-section, to 1 µm: narrower than the
+    /// round-edged track that is printed by 0.21 times the height. Volumes of stretches below 0.25 mm are pooled, as E
+    /// is rounded.
     void finish(GcodePrint& print, const LayerHints& hints);
 
 private:
@@ -70,6 +73,7 @@ private:
         Extrusion extrusion;
         std::int64_t width;   ///< or minus its flow's number, see width_of
         bool continues;
+        std::uint64_t path;
     };
     using Groups = std::map<Key, GcodeLayer>;
 
@@ -88,6 +92,7 @@ private:
     std::vector<Climb> climbing_;
     std::size_t level_from_ = 0;     ///< climbing_ from here on is level: known only when the path climbs on or ends
     bool climbed_ = false;           ///< in this path
+    std::uint64_t paths_ = 0;  ///< that have ended
     bool in_path_ = false;
     std::vector<Flow> flows_;
     bool flow_open_ = false;

@@ -61,7 +61,8 @@ struct GcodePrint {
     double set_aside_mm = 0;  ///< extruded by start, end and other custom G-code: neither judged nor material
     std::vector<double> nozzles, filaments;  ///< diameters in mm as the file says, one a tool; empty: it does not
     double filament_diameter = 0;         ///< mm; what widths were computed with where the file gives none (tool 0)
-    /// Of the layers whose height is the distance to the next lower one: those at most half as high as one beside them.
+    /// Of the layers whose height is the distance to the next lower one: those at most half as high as both beside
+    /// them.
     int thin_layers = 0;
     std::uint64_t widths_written = 0, widths_computed = 0;  ///< tracks whose width stands in a comment; comes from E
 };

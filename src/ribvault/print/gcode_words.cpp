@@ -30,21 +30,46 @@ int scan_code(std::string_view& text) {
     return n == 0 ? -1 : code;
 }
 
+/// Does the command change what moves mean?
+bool is_obeyed(char letter, int code) {
+    if (letter == 'G')
+        return (code >= 0 && code <= 3) || code == 20 || code == 21 || code == 28 || (code >= 90 && code <= 92);
+    return letter == 'M' && (code == 82 || code == 83 || code == 200);
+}
+
+constexpr const char* second_command = "a second command on the line; expected each on a line of its own";
+
+/// Commands without words of their own, which another command may follow on a line.
+bool is_mode(const GcodeWords& w) {
+    if (w.letter == 'M') return w.code == 82 || w.code == 83;
+    return w.letter == 'T' || (w.code >= 17 && w.code <= 21) || (w.code >= 53 && w.code <= 59) || w.code == 90 ||
+           w.code == 91;
+}
+
+bool begins_with_obeyed(std::string_view text) {
+    skip_blanks(text);
+    if (text.empty()) return false;
+    const char letter = upper(text.front());
+    text.remove_prefix(1);
+    return is_obeyed(letter, scan_code(text));
+}
+
+/// X10, X 10 or X10Y5, but not X10_HOME.
+bool begins_with_coordinate(std::string_view text) {
+    if (std::string_view("XYZEF").find(upper(text.front())) == std::string_view::npos) return false;
+    text.remove_prefix(1);
+    skip_blanks(text);
+    const std::size_t length = scan_decimal(text).length;
+    if (length == 0) return false;
+    text.remove_prefix(length);
+    if (text.empty() || is_blank(text.front()) || text.front() == '*' || text.front() == '(') return true;
+    return is_letter(upper(text.front())) && scan_decimal(text.substr(1)).length > 0;
+}
+
 /// Whether the words after the command are numbers that decide where material goes.
 bool is_read(const GcodeWords& w) {
     if (w.letter == 'G') return w.code <= 3 || w.code == 28 || w.code == 92;
     return w.letter == 'M' && w.code == 200;
-}
-
-/// G17 to G21, G53 to G59, G90 and G91 have no words of their own.
-bool is_mode(const GcodeWords& w) {
-    return w.letter == 'G' &&
-           ((w.code >= 17 && w.code <= 21) || (w.code >= 53 && w.code <= 59) || w.code == 90 || w.code == 91);
-}
-
-bool has_command(std::string_view text) {
-    skip_blanks(text);
-    return text.size() > 1 && (upper(text[0]) == 'G' || upper(text[0]) == 'M') && is_digit(text[1]);
 }
 
 std::string scan_words(std::string_view text, GcodeWords& w) {
@@ -54,6 +79,7 @@ std::string scan_words(std::string_view text, GcodeWords& w) {
         if (!is_letter(letter)) return quoted_text(text) + " stands where a letter such as X, Y, Z, E or F should";
         text.remove_prefix(1);
         while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+        if (std::string_view code = text; is_obeyed(letter, scan_code(code))) return second_command;
         const std::uint32_t bit = GcodeWords::bit(letter);
         if ((w.written & bit) != 0) return std::string("the word ") + letter + " stands there twice";
         w.written |= bit;
@@ -99,10 +125,11 @@ std::string scan_line(std::string_view line, GcodeWords& w) {
         if (text.empty()) return {};
     }
     const char letter = upper(text.front());
-    if (std::string_view("XYZE").find(letter) != std::string_view::npos && scan_decimal(text.substr(1)).length > 0)
+    if (begins_with_coordinate(text))
         return quoted_text(text) + " moves without a command; expected G0 to G3 before it on each line";
     if (letter != 'G' && letter != 'M' && letter != 'T') return {};
     std::string_view rest = text.substr(1);
+    skip_blanks(rest);
     w.code = scan_code(rest);
     if (w.code < 0) return {};  // a macro: GREETING, M_FOO
     w.letter = letter;
@@ -110,7 +137,7 @@ std::string scan_line(std::string_view line, GcodeWords& w) {
         rest.remove_prefix(1);
         w.subcode = std::max(0, scan_code(rest));
     }
-    if (is_mode(w) && has_command(rest)) return "a second command on the line; expected each on a line of its own";
+    if (is_mode(w) && begins_with_obeyed(rest)) return second_command;
     return is_read(w) ? scan_words(rest, w) : std::string{};
 }
 

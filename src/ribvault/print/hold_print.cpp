@@ -25,12 +25,14 @@ Lane lane_of(const PrintedTrack& track) {
 
 /// Walls that end at strips of the shell in which nothing is printed (print/gap_strips.hpp, or narrower than d / 2) go
 /// on through them until they overlap the next track by d / 4, as slicers let their infill overlap perimeters.
-void reach_shell(const LayerPlan& shell, const Settings& settings, SupportForest& forest) {
+/// Did any?
+bool reach_shell(const LayerPlan& shell, const Settings& settings, SupportForest& forest) {
     LayerPlan object;  // without the tracks of walls of several lines
     for (const PlannedTrack& track : shell.tracks)
         if (!is_support(track.paths.front().kind)) object.tracks.push_back(track);
     const PlanTracks tracks(object);
-    if (tracks.segments().empty()) return;
+    if (tracks.segments().empty()) return false;
+    bool any = false;
     const auto d = static_cast<double>(settings.nozzle);
     for (std::size_t v = 0, before = num_vertices(forest); v < before; ++v) {
         const SupportVertex root = forest[v];
@@ -45,7 +47,9 @@ void reach_shell(const LayerPlan& shell, const Settings& settings, SupportForest
         const auto w = add_vertex(root, forest);
         forest[w].at = end, forest[v].root = false;
         add_edge(v, w, forest);
+        any = true;
     }
+    return any;
 }
 
 /// Without its isolated roots, which hold up the last stub of a wall above: they are printed where something hangs
@@ -85,11 +89,12 @@ public:
         judge();
         std::vector<Hanging> hanging = open();
         if (may_need_strips) {
-            print_strips(hanging);
-            reach_shell(shell_, settings_, forest_);
-            lay_supports();
-            look_again();
-            hanging = open();
+            const bool printed = print_strips(hanging), reached = reach_shell(shell_, settings_, forest_);
+            if (printed || reached) {
+                lay_supports();
+                look_again();
+                hanging = open();
+            }
         }
         for (int round = 0; settings_.gaps != Gaps::paper && !hanging.empty() && round < rounds; ++round) {
             if (!tracks_ && close_gaps(hanging) > 0)
@@ -165,11 +170,11 @@ private:
     }
 
     /// Prints spare strips of the shell where they may be what something needs.
-    void print_strips(const std::vector<Hanging>& open) {
+    bool print_strips(const std::vector<Hanging>& open) {
         std::vector<StripReach> places;
         for (const Hanging& hanging : open)
             places.push_back({hanging.place(), reach_under(hanging)});
-        print_strips_under(places, settings_.nozzle, shell_);
+        return print_strips_under(places, settings_.nozzle, shell_);
     }
     /// How far from the stretch there can be something that holds up what hangs there.
     double reach_under(const Hanging& hanging) const {
