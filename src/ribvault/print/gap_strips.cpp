@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/exact/point_location.hpp"
@@ -133,10 +135,58 @@ void append_strips(std::vector<PlannedTrack> strips, const Covering& covering, U
     plan.unfilled_area += area_of(plan.spare.begin() + static_cast<std::ptrdiff_t>(before), plan.spare.end());
 }
 
+std::vector<StripReach> seem_to_hang(const std::vector<Lane>& above, const std::vector<Segment>& walls,
+                                     const LayerPlan& plan, const Settings& settings) {
+    std::vector<Segment> lines;
+    const auto append_lines = [&](const std::vector<PlannedTrack>& tracks, std::vector<Unit>& widths) {
+        for (const PlannedTrack& track : tracks)
+            for (const ToolPath& path : track.paths) {
+                append_segments(path, lines);
+                widths.resize(lines.size(), path.width);
+            }
+    };
+    std::vector<Unit> widths, spare_widths;
+    append_lines(plan.spare, spare_widths);
+    const NearestSegment spare(std::exchange(lines, {}));
+    append_lines(plan.tracks, widths);
+    lines.insert(lines.end(), walls.begin(), walls.end());
+    widths.resize(lines.size(), settings.nozzle);
+    const NearestSegment below(std::move(lines));
+    std::vector<StripReach> hanging;
+    if (spare.empty() || below.empty()) return hanging;
+    const Unit widest = *std::max_element(spare_widths.begin(), spare_widths.end());
+    const auto rho = static_cast<double>(settings.support_radius);
+    const auto holds = [&](Point p, double more) {
+        const NearestSegment::Hit hit = below.nearest(p);
+        const double far = static_cast<double>(widths[hit.index]) / 2 + more;
+        return far >= 0 && hit.distance.value() <= far * far;
+    };
+    for (const Lane& lane : above) {
+        Box box;
+        box.add(lane.centre.a), box.add(lane.centre.b);
+        box.grow(lane.width / 2 + settings.support_radius + widest / 2);
+        bool near = false;
+        spare.visit(box, [&](std::uint32_t) { near = true; });
+        if (!near) continue;
+        const auto parts = std::max(
+            1, static_cast<int>(std::ceil(2 * length(lane.centre) / static_cast<double>(settings.nozzle))));
+        for (int k = 0; k <= parts; ++k) {
+            const Point p = part_way(lane.centre.a, lane.centre.b, static_cast<double>(k) / parts);
+            if (holds(p, rho - static_cast<double>(lane.width) / 2)) continue;
+            for (int turn = 0; turn < 8; ++turn) {
+                const double angle = turn * std::numbers::pi / 4, half = static_cast<double>(lane.width) / 2;
+                const Point rim =
+                    p + Point{round_to_lattice(half * std::cos(angle)), round_to_lattice(half * std::sin(angle))};
+                if (!holds(rim, rho)) hanging.push_back({{rim, rim}, rho});
+            }
+        }
+    }
+    return hanging;
+}
+
 bool print_strips_under(const std::vector<StripReach>& hanging, Unit d, LayerPlan& plan) {
-    const std::vector<PlannedTrack> spare = std::move(plan.spare);
-    plan.spare.clear();
-    if (spare.empty() || hanging.empty()) return false;
+    if (plan.spare.empty() || hanging.empty()) return false;
+    const std::vector<PlannedTrack> spare = std::exchange(plan.spare, {});
     std::vector<Segment> stretches;
     double farthest = 0;
     for (const StripReach& h : hanging) stretches.push_back(h.stretch), farthest = std::max(farthest, h.reach);
@@ -156,6 +206,7 @@ bool print_strips_under(const std::vector<StripReach>& hanging, Unit d, LayerPla
         }
         close_up(pieces, 5 * static_cast<double>(d), false);
         append_runs(pieces, true, strip.entry, plan.tracks);
+        append_runs(pieces, false, strip.entry, plan.spare);
     }
     plan.unfilled_area -= area_of(plan.tracks.begin() + static_cast<std::ptrdiff_t>(before), plan.tracks.end());
     return plan.tracks.size() > before;

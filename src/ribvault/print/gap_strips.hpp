@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "ribvault/print/layer_plan.hpp"
+#include "ribvault/print/place_dot.hpp"
+#include "ribvault/settings.hpp"
 #include "ribvault/slice/slice.hpp"
 
 namespace ribvault {
@@ -29,8 +31,15 @@ struct StripReach {
     double reach;  ///< lattice units: half the width of what hangs, and ρ
 };
 
-/// Prints the parts of the plan's spare tracks that may hold up any of `hanging`: they become tracks of the plan, and
-/// no track is spare any more. Two parts of one strip less than 5 d apart are one: at usual speeds that takes less time
+/// What of the tracks `above` seems to hang without the plan's spare tracks and near these: around samples of their
+/// centre lines, at most d / 2 apart, those of eight points at half the track's width that are not within ρ of the
+/// nearest track of the plan and of `walls` (d wide). A guess, so that few strips are missing, and few are printed in
+/// vain, when the verifier looks; it decides.
+std::vector<StripReach> seem_to_hang(const std::vector<Lane>& above, const std::vector<Segment>& walls,
+                                     const LayerPlan& plan, const Settings& settings);
+
+/// Prints the parts of the plan's spare tracks that may hold up any of `hanging`: they become tracks of the plan, the
+/// others stay spare. Two parts of one strip less than 5 d apart are one: at usual speeds that takes less time
 /// than a travel. Parts begin and end at most d from where they must, at points of the lattice (a choice). Are there
 /// any?
 bool print_strips_under(const std::vector<StripReach>& hanging, Unit d, LayerPlan& plan);

@@ -25,14 +25,12 @@ Lane lane_of(const PrintedTrack& track) {
 
 /// Walls that end at strips of the shell in which nothing is printed (print/gap_strips.hpp, or narrower than d / 2) go
 /// on through them until they overlap the next track by d / 4, as slicers let their infill overlap perimeters.
-/// Did any?
-bool reach_shell(const LayerPlan& shell, const Settings& settings, SupportForest& forest) {
+void reach_shell(const LayerPlan& shell, const Settings& settings, SupportForest& forest) {
     LayerPlan object;  // without the tracks of walls of several lines
     for (const PlannedTrack& track : shell.tracks)
         if (!is_support(track.paths.front().kind)) object.tracks.push_back(track);
     const PlanTracks tracks(object);
-    if (tracks.segments().empty()) return false;
-    bool any = false;
+    if (tracks.segments().empty()) return;
     const auto d = static_cast<double>(settings.nozzle);
     for (std::size_t v = 0, before = num_vertices(forest); v < before; ++v) {
         const SupportVertex root = forest[v];
@@ -47,9 +45,7 @@ bool reach_shell(const LayerPlan& shell, const Settings& settings, SupportForest
         const auto w = add_vertex(root, forest);
         forest[w].at = end, forest[v].root = false;
         add_edge(v, w, forest);
-        any = true;
     }
-    return any;
 }
 
 /// Without its isolated roots, which hold up the last stub of a wall above: they are printed where something hangs
@@ -82,19 +78,16 @@ public:
     }
 
     HeldLayer run() {
-        const bool may_need_strips = above_ && !shell_.spare.empty();
-        if (!may_need_strips) reach_shell(shell_, settings_, forest_);
+        if (above_ && !shell_.spare.empty()) print_strips_under(seem_to_hang(), settings_.nozzle, shell_);
+        reach_shell(shell_, settings_, forest_);
         lay_supports();
         if (!above_) return std::move(held_);
         judge();
         std::vector<Hanging> hanging = open();
-        if (may_need_strips) {
-            const bool printed = print_strips(hanging), reached = reach_shell(shell_, settings_, forest_);
-            if (printed || reached) {
-                lay_supports();
-                look_again();
-                hanging = open();
-            }
+        if (print_strips(hanging)) {
+            lay_supports();
+            look_again();
+            hanging = open();
         }
         for (int round = 0; settings_.gaps != Gaps::paper && !hanging.empty() && round < rounds; ++round) {
             if (!tracks_ && close_gaps(hanging) > 0)
@@ -167,6 +160,15 @@ private:
     void look_again() {
         held_.mended = true;
         for (PrintPart& part : held_.parts) part.judgement.change_below(*held_.printed);
+    }
+
+    std::vector<StripReach> seem_to_hang() const {
+        std::vector<Segment> walls;
+        for (auto [e, end] = edges(forest_); e != end; ++e)
+            walls.push_back({forest_[source(*e, forest_)].at, forest_[target(*e, forest_)].at});
+        std::vector<Lane> above;
+        for (const PrintedTrack& track : above_->tracks) above.push_back(lane_of(track));
+        return ribvault::seem_to_hang(above, walls, shell_, settings_);
     }
 
     /// Prints spare strips of the shell where they may be what something needs.
