@@ -21,10 +21,12 @@ auto key(const PrintedTrack& t) { return std::tie(t.a, t.b, t.width, t.outline);
 bool earlier(const PrintedTrack& s, const PrintedTrack& t) { return key(s) < key(t); }
 bool same(const PrintedTrack& s, const PrintedTrack& t) { return key(s) == key(t); }
 
-/// The tracks that one of the two has more often than the other. Most are the same at the beginning.
+/// The tracks that one of the two has more often than the other. Most are the same at the beginning and at the end.
 std::vector<PrintedTrack> difference(const std::vector<PrintedTrack>& one, const std::vector<PrintedTrack>& other) {
     const auto [from, begin] = std::mismatch(one.begin(), one.end(), other.begin(), other.end(), same);
-    std::vector<PrintedTrack> left(from, one.end()), right(begin, other.end()), result;
+    const auto [to, end] = std::mismatch(one.rbegin(), std::make_reverse_iterator(from), other.rbegin(),
+                                         std::make_reverse_iterator(begin), same);
+    std::vector<PrintedTrack> left(from, to.base()), right(begin, end.base()), result;
     std::sort(left.begin(), left.end(), earlier);
     std::sort(right.begin(), right.end(), earlier);
     std::set_symmetric_difference(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(result),

@@ -1,6 +1,9 @@
 // How large M \ K is, from cells that are in it and bounds of what of the others is.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "ribvault/verify/cell.hpp"
 
@@ -65,59 +68,165 @@ struct Part {
     Vec<double> middle{0, 0};  ///< of what is certainly uncovered, when lo > 0
 };
 
-/// In a cell that at most one edge of M crosses, from side to side as boundaries are closed, M is the cell or a
-/// half-plane of it. The distance f from a segment is convex and, at distances of d and more from it, has second
-/// derivatives of at most 1 / d. So with its gradient g at the centre c and the cell's half diagonal h
+/// The line of an edge of M that cuts a cell.
+struct Line {
+    Vec<double> left;       ///< its normal, of length 1
+    double from;            ///< left·(p - c) there, c being the cell's centre
+    bool reference_left;    ///< on which side the cell's reference point is
+};
+
+/// Nothing unless the edge passes the cell from side to side, or passes it by.
+std::optional<Line> line_through(const Track& t, const Cell& cell, double margin) {
+    const double length = std::sqrt(t.dx * t.dx + t.dy * t.dy), half = cell.half + 4 * margin;
+    if (length < 512 * margin) return std::nullopt;
+    double enters = -HUGE_VAL, leaves = HUGE_VAL;
+    for (const auto& [at, d] : {std::pair(t.ax - cell.x, t.dx), std::pair(t.ay - cell.y, t.dy)}) {
+        if (d == 0) {
+            if (std::abs(at) > half) leaves = -HUGE_VAL;
+            continue;
+        }
+        const double one = (-half - at) / d, other = (half - at) / d;
+        enters = std::max(enters, std::min(one, other)), leaves = std::min(leaves, std::max(one, other));
+    }
+    if (enters <= leaves && (enters <= 0 || leaves >= 1)) return std::nullopt;
+    Line line{{-t.dy / length, t.dx / length}, 0, false};
+    line.from = (t.ax - cell.x) * line.left.x + (t.ay - cell.y) * line.left.y;
+    const double height = (cell.ref_x - cell.x) * line.left.x + (cell.ref_y - cell.y) * line.left.y - line.from;
+    if (std::abs(height) < margin) return std::nullopt;
+    line.reference_left = height > 0;
+    return line;
+}
+
+/// The two edges of M as lines that meet in the cell, where they are the ends of one line that turns there. `both`: M's
+/// boundary has what is left of both lines on its left; else what is left of either.
+struct Corner {
+    std::array<Line, 2> lines;
+    bool both;
+};
+std::optional<Corner> corner_of(const Subdivision& s, const Cell& cell) {
+    const auto e = static_cast<std::size_t>(cell.edges[0]), f = static_cast<std::size_t>(cell.edges[1]);
+    const bool in_order = s.problem->material[e].b == s.problem->material[f].a;
+    if (!in_order && s.problem->material[f].b != s.problem->material[e].a) return std::nullopt;
+    const Track &in = s.material[in_order ? e : f], &out = s.material[in_order ? f : e];
+    const auto inside = [&](double x, double y, double half) {
+        return std::max(std::abs(x - cell.x), std::abs(y - cell.y)) < half;
+    };
+    const double wide = cell.half + 4 * s.margin;
+    if (!inside(out.ax, out.ay, cell.half - s.margin) || inside(in.ax, in.ay, wide) ||
+        inside(out.ax + out.dx, out.ay + out.dy, wide))
+        return std::nullopt;
+    Corner corner{};
+    for (const bool first : {true, false}) {
+        // From the corner on to both sides, so that each line passes the cell.
+        Track t = first ? in : out;
+        const double length = std::sqrt(t.dx * t.dx + t.dy * t.dy);
+        if (length < 512 * s.margin) return std::nullopt;
+        const double on = 8 * wide / length;
+        t.ax = out.ax - on * t.dx, t.ay = out.ay - on * t.dy, t.dx *= 2 * on, t.dy *= 2 * on;
+        const std::optional<Line> line = line_through(t, cell, s.margin);
+        if (!line) return std::nullopt;
+        corner.lines[first ? 0 : 1] = *line;
+    }
+    corner.both = in.dx * out.dy - in.dy * out.dx > 0;
+    return corner;
+}
+
+/// A convex part of a cell in which M \ K is the cell, as far as doubles tell: all of what is certainly in it and no
+/// more than what may be.
+struct Bounds {
+    Polygon least, most;
+    void cut(Vec<double> n, double from, double slack, double margin) {
+        least = clipped(least, n, from + margin), most = clipped(most, n, from - slack - margin);
+    }
+    void cut(const Line& line, bool left, double margin) {
+        if (left)
+            cut(line.left, line.from, 0, margin);
+        else
+            cut({-line.left.x, -line.left.y}, -line.from, 0, margin);
+    }
+};
+
+/// The parts of the cell that M has, where at most two edges cross the cell, from side to side, or turn in it.
+std::optional<boost::container::small_vector<Bounds, 4>> parts_of_material(const Subdivision& s, const Cell& cell,
+                                                                          const Bounds& whole) {
+    boost::container::small_vector<Bounds, 4> parts;
+    const std::size_t n = cell.edges.size();
+    if (n > 2) return std::nullopt;
+    const std::optional<Corner> corner = n == 2 ? corner_of(s, cell) : std::nullopt;
+    std::array<Line, 2> lines{};
+    if (corner) lines = corner->lines;
+    for (std::size_t k = 0; k < n && !corner; ++k) {
+        const std::optional<Line> line =
+            line_through(s.material[static_cast<std::size_t>(cell.edges[k])], cell, s.margin);
+        if (!line) return std::nullopt;
+        lines[k] = *line;
+    }
+    // How often what is on these sides of the lines is on the left of the boundary.
+    const auto on_left = [&](bool first, bool second) -> int {
+        if (!corner) return static_cast<int>(first) + static_cast<int>(second);
+        return corner->both ? first && second : first || second;
+    };
+    const int reference = on_left(lines[0].reference_left, lines[1].reference_left);
+    for (const bool first : {true, false})
+        for (const bool second : {true, false}) {
+            if ((n < 1 && !first) || (n < 2 && !second)) continue;
+            const bool a = n < 1 ? lines[0].reference_left : first, b = n < 2 ? lines[1].reference_left : second;
+            if (cell.material_winding + on_left(a, b) - reference == 0) continue;
+            Bounds part = whole;
+            if (n > 0) part.cut(lines[0], first, s.margin);
+            if (n > 1) part.cut(lines[1], second, s.margin);
+            parts.push_back(std::move(part));
+        }
+    return parts;
+}
+
+/// The distance f from a segment is convex and, at distances of d and more from it, has second derivatives of at most
+/// 1 / d. So with its gradient g at the centre c and the cell's half diagonal h
 ///     f(c) + g·(p - c) <= f(p) <= f(c) + g·(p - c) + h² / (2 (f(c) - h)),
-/// and M outside a stadium is between two polygons.
+/// and what is outside a stadium is between two polygons. Beside the segment, away from its ends, the two are one.
 Part bounded(const Subdivision& s, Cell&& open) {
     Part part{std::move(open), 0, 0, {}};
     const Cell& cell = part.cell;
     const CoverProblem& problem = *s.problem;
-    part.hi = 4 * cell.half * cell.half;
-    if (!cell.pieces.empty() || !cell.region.empty() || cell.edges.size() > 1 || cell.sites.size() > 12) return part;
+    const double all = 4 * cell.half * cell.half;
+    part.hi = all;
+    if (!cell.pieces.empty() || !cell.region.empty() || cell.edges.size() > 2 || cell.sites.size() > 12) return part;
     const double h = cell.half * 1.4142135623730952;
-    Polygon least{{-cell.half, -cell.half}, {cell.half, -cell.half}, {cell.half, cell.half}, {-cell.half, cell.half}};
-    Polygon most = least;
-    const auto cut = [&](Vec<double> n, double from, double slack) {
-        least = clipped(least, n, from + s.margin), most = clipped(most, n, from - slack - s.margin);
-    };
-    for (const int e : cell.edges) {
-        const Track& t = s.material[static_cast<std::size_t>(e)];
-        const double length = std::sqrt(t.dx * t.dx + t.dy * t.dy);
-        if (length < 512 * s.margin) return part;
-        const Vec<double> left{-t.dy / length, t.dx / length};
-        const auto height = [&](double x, double y) { return (x - t.ax) * left.x + (y - t.ay) * left.y; };
-        const bool reference_left = height(cell.ref_x, cell.ref_y) > 0;
-        if (std::abs(height(cell.ref_x, cell.ref_y)) < s.margin) return part;
-        const bool on_left = (reference_left ? cell.material_winding : cell.material_winding + 1) != 0;
-        const bool on_right = (reference_left ? cell.material_winding - 1 : cell.material_winding) != 0;
-        const double from = -height(cell.x, cell.y);
-        if (on_left && on_right) continue;
-        if (on_left)
-            cut(left, from, 0);
-        else
-            cut({-left.x, -left.y}, -from, 0);
-    }
+    const Polygon square{{-cell.half, -cell.half}, {cell.half, -cell.half}, {cell.half, cell.half}, {-cell.half, cell.half}};
+    Bounds bounds{square, square};
     bool nothing_certain = false;
     for (const int i : cell.sites) {
         const Track& t = s.sites[static_cast<std::size_t>(i)];
         const double vx = cell.x - t.ax, vy = cell.y - t.ay;
-        const double along = std::clamp((vx * t.dx + vy * t.dy) * t.inverse_norm, 0.0, 1.0);
+        const double place = (vx * t.dx + vy * t.dy) * t.inverse_norm, along = std::clamp(place, 0.0, 1.0);
         const double ex = vx - along * t.dx, ey = vy - along * t.dy, d = std::sqrt(ex * ex + ey * ey);
         if (d <= 1.5 * h) {
             nothing_certain = true;
             continue;
         }
-        cut({ex / d, ey / d}, problem.sites[static_cast<std::size_t>(i)].radius.approx - d, h * h / (2 * (d - h)));
+        const double to_end = std::min(place, 1 - place) * std::sqrt(t.dx * t.dx + t.dy * t.dy);
+        const double slack = to_end > h + s.margin ? 0 : h * h / (2 * (d - h));
+        bounds.cut({ex / d, ey / d}, problem.sites[static_cast<std::size_t>(i)].radius.approx - d, slack, s.margin);
     }
-    part.hi = area_of(most);
-    if (nothing_certain) return part;
-    part.lo = std::min(area_of(least), part.hi);
-    for (const Vec<double>& p : least)
-        part.middle.x += p.x / static_cast<double>(least.size()),
-            part.middle.y += p.y / static_cast<double>(least.size());
-    part.middle.x += cell.x, part.middle.y += cell.y;
+    const auto parts = parts_of_material(s, cell, bounds);
+    if (!parts) {
+        part.hi = area_of(bounds.most);
+        return part;
+    }
+    part.hi = 0;
+    double largest = 0;
+    for (const Bounds& of : *parts) {
+        const double most = area_of(of.most), least = nothing_certain ? 0 : std::min(area_of(of.least), most);
+        part.lo += least, part.hi += most;
+        if (least <= largest) continue;
+        largest = least, part.middle = {0, 0};
+        for (const Vec<double>& p : of.least)
+            part.middle.x += p.x / static_cast<double>(of.least.size()),
+                part.middle.y += p.y / static_cast<double>(of.least.size());
+        part.middle.x += cell.x, part.middle.y += cell.y;
+    }
+    part.hi = std::min(part.hi, all);
+    part.lo = std::min(part.lo, part.hi);
     return part;
 }
 
