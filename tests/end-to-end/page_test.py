@@ -320,9 +320,8 @@ class Pages(unittest.TestCase):
             plain.key("Home")
             self.assertEqual(plain.run("document.getElementById('slider').value"), "0")
 
-    def test_a_large_print_opens_within_five_seconds_and_follows_the_slider(self):
-        """The cube's layers fifteen times over and fifteen times as large: 1500 layers, 300 mm. Bounds for any machine;
-        scripts/page-speed measures."""
+    def test_a_large_print_opens_and_follows_the_slider(self):
+        """The cube's layers fifteen times over and fifteen times as large: 1500 layers, 300 mm. scripts/page-speed times such."""
         header, *layers = map(json.loads, (self.folder / "a.layers").read_text().splitlines())
         header["totals"]["layers"] = 15 * len(layers)
         large = lambda value: [large(v) for v in value] if isinstance(value, list) else round(15 * value, 3)
@@ -335,13 +334,11 @@ class Pages(unittest.TestCase):
                 out.write(json.dumps({**layers[k % len(layers)], "layer": k}) + "\n")
         self.assertEqual(make_page(self.folder, "large.layers", "-o", "large.html").returncode, 0)
         self.open("large.html")
-        self.assertLess(self.browser.run("performance.getEntriesByName('shown')[0].startTime"), 5000)
         self.browser.settle()
-        start = self.browser.run("performance.now()")
         for k in range(1499, 0, -50):
             self.slide(k)
             self.browser.run("new Promise(requestAnimationFrame)")
-        self.assertLess(self.browser.run("performance.now()") - start, 30 * 250)
+            self.assertEqual(self.shown(), [k, k])
         self.at_end()
 
     def test_gcode_of_any_slicer(self):
