@@ -210,13 +210,15 @@ void append_gap_fill(const Region& outline, const Region& cavity, int perimeters
     constexpr double apart = 10;  // lattice units: keeps Clipper away from nearly coincident borders
     const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - 2 * apart), cavity);
     if (signed_area(room) < width * width / 16) return;
-    const Region left = clip(cl::ctDifference, room, printed_covers(plan, first_cover, 2 * apart));
+    const Region covers = printed_covers(plan, first_cover, 2 * apart);
+    const Region left = covers.empty() ? room : clip(cl::ctDifference, room, covers);
     plan.unfilled_area += signed_area(left);
     if (which == GapFill::none) return;
     // Only where a track of w / 2 has room; most strips are narrower all along.
-    const Region wide = clip(cl::ctIntersection, mitred(mitred(left, -width / 4), width / 4 + apart), left);
+    const Region wide = mitred(mitred(left, -width / 4), width / 4 + apart);
+    if (wide.empty()) return;
     std::vector<PlannedTrack> strips;
-    for (const Region& piece : connected_pieces(wide)) {
+    for (const Region& piece : clip_to_pieces(cl::ctIntersection, wide, left)) {
         const double area = signed_area(piece);
         if (area < width * width / 2) continue;
         std::vector<PlannedTrack> along = medial_tracks(piece, w, TrackKind::thin_wall);

@@ -41,12 +41,13 @@ inline Region clip(ClipperLib::ClipType operation, const Region& subject, const 
     return from_clipper(result);
 }
 
-/// The connected pieces of a region, each an outer contour followed by its holes.
-inline std::vector<Region> connected_pieces(const Region& region) {
+/// The connected pieces of the result, each an outer contour followed by its holes.
+inline std::vector<Region> clip_to_pieces(ClipperLib::ClipType operation, const Region& subject, const Region& clip) {
     ClipperLib::Clipper clipper;
-    clipper.AddPaths(to_clipper(region), ClipperLib::ptSubject, true);
+    clipper.AddPaths(to_clipper(subject), ClipperLib::ptSubject, true);
+    clipper.AddPaths(to_clipper(clip), ClipperLib::ptClip, true);
     ClipperLib::PolyTree tree;
-    clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    clipper.Execute(operation, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
     std::vector<Region> pieces;
     for (const ClipperLib::PolyNode* node = tree.GetFirst(); node; node = node->GetNext()) {
         if (node->IsHole()) continue;
@@ -56,22 +57,15 @@ inline std::vector<Region> connected_pieces(const Region& region) {
     }
     return pieces;
 }
+inline std::vector<Region> connected_pieces(const Region& region) {
+    return clip_to_pieces(ClipperLib::ctUnion, region, {});
+}
 
 /// Lattice units that rounding may take away: see erode_slice.
 inline constexpr double clip_rounding = 3;
 
-/// What lies within `distance` of segments (of points, where one has no length), round ends and corners made of chords
-/// at most `arc_tolerance` units inside the arc.
-inline Region offset(const std::vector<Segment>& lines, double distance, double arc_tolerance) {
-    ClipperLib::ClipperOffset offsetter(2.0, arc_tolerance);
-    for (const Segment& s : lines)
-        offsetter.AddPath({{s.a.x, s.a.y}, {s.b.x, s.b.y}}, ClipperLib::jtRound, ClipperLib::etOpenRound);
-    ClipperLib::Paths around;
-    offsetter.Execute(around, distance);
-    return from_clipper(around);
-}
-
-/// What lies within `distance` of open polylines, alike.
+/// What lies within `distance` of open polylines (of points, where one has no length), round ends and corners made of
+/// chords at most `arc_tolerance` units inside the arc.
 inline Region offset_lines(const std::vector<Contour>& lines, double distance, double arc_tolerance) {
     ClipperLib::ClipperOffset offsetter(2.0, arc_tolerance);
     for (const Contour& line : lines)
@@ -79,6 +73,12 @@ inline Region offset_lines(const std::vector<Contour>& lines, double distance, d
     ClipperLib::Paths around;
     offsetter.Execute(around, distance);
     return from_clipper(around);
+}
+inline Region offset(const std::vector<Segment>& lines, double distance, double arc_tolerance) {
+    std::vector<Contour> each;
+    each.reserve(lines.size());
+    for (const Segment& s : lines) each.push_back({s.a, s.b});
+    return offset_lines(each, distance, arc_tolerance);
 }
 
 /// Region moved outwards (delta > 0) or inwards (delta < 0) by |delta| units.
