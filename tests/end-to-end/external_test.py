@@ -12,7 +12,7 @@ import unittest
 PROGRAM = os.environ["RIBVAULT"]
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "experiments"))
-from make_solids import box, write_stl  # noqa: E402
+from make_solids import box, lathe, write_stl  # noqa: E402
 
 CUBE = ROOT / "experiments/models/cube20.stl"
 
@@ -92,6 +92,15 @@ class External(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         for layers, expected in (("2", 1), ("3", 0), ("4", 0)):
             self.assertEqual(self.run_program("verify", "a.gcode", "--support-gap-layers", layers).returncode, expected)
+
+    def test_no_patch_is_printed_twice(self):
+        # A lamp on its foot: supports from the bed do not reach under its shade, whose edge the slices below hold up.
+        write_stl(self.table, lathe([(8, 0), (8, 1), (2, 1.5), (2, 6), (8, 9), (8, 10)], 24))
+        self.run_program("generate", self.table, "-o", "a.gcode", "--layers", "a.layers", "--support", "external", "--bed-only")
+        patches = [[json.dumps(p) for p in json.loads(line)["patch_tracks"]] for line in (self.folder / "a.layers").read_text().splitlines()[1:]]
+        every, once = sum(map(len, patches)), sum(len(set(here)) for here in patches)
+        self.assertGreater(every, 100)
+        self.assertLess(every - once, every / 50)  # a few lie within a micrometre, to which the file rounds, of another
 
     def test_supports_on_the_bed_alone_stand_on_no_part_of_the_object(self):
         # A roof over a foot that reaches a little farther.

@@ -320,6 +320,21 @@ private:
         return gap_patches_->add_under_rim(hanging.hanging(), material) || added;
     }
 
+    /// Of the patches from `before` on, those that were there already. Each would be a track of its own, to be held up
+    /// farther down.
+    void drop_repeated(std::size_t before) {
+        std::size_t kept = before;
+        for (std::size_t k = before; k < patches_.size(); ++k) {
+            const Patch patch = patches_[k];
+            const auto same = [&](const Patch& p) {
+                return p.kind == patch.kind && p.segment.a == patch.segment.a && p.segment.b == patch.segment.b;
+            };
+            if (std::none_of(patches_.begin(), patches_.begin() + static_cast<std::ptrdiff_t>(kept), same))
+                patches_[kept++] = patch;
+        }
+        patches_.resize(kept);
+    }
+
     void add_patches(const std::vector<Hanging>& open, int round) {
         const std::size_t before = patches_.size();
         std::vector<Segment> loops;
@@ -346,6 +361,7 @@ private:
                 }
             }
         }
+        drop_repeated(before);
     }
 
     /// Where a patch would hold up what hangs: in the first half of the rounds a dot as near to the tracks as can be;
@@ -405,6 +421,7 @@ private:
         begin_patches();
         const std::size_t before = patches_.size();
         for (const Hanging& stretch : hanging) gap_patches_->add_to_object(stretch.place());
+        drop_repeated(before);
         if (patches_.size() == before) {
             held_.plan = without_patches_;
             if (!patches_.empty()) lay_all_patches();
