@@ -70,9 +70,9 @@ struct Part {
 
 /// The line of an edge of M that cuts a cell.
 struct Line {
-    Vec<double> left;       ///< its normal, of length 1
-    double from;            ///< left·(p - c) there, c being the cell's centre
-    bool reference_left;    ///< on which side the cell's reference point is
+    Vec<double> left;     ///< its normal, of length 1
+    double from;          ///< left·(p - c) there, c being the cell's centre
+    bool reference_left;  ///< on which side the cell's reference point is
 };
 
 /// Nothing unless the edge passes the cell from side to side, or passes it by.
@@ -131,8 +131,7 @@ std::optional<Corner> corner_of(const Subdivision& s, const Cell& cell) {
     return corner;
 }
 
-/// A convex part of a cell in which M \ K is the cell, as far as doubles tell: all of what is certainly in it and no
-/// more than what may be.
+/// What M \ K has of one side of the lines in a cell: all of `least`, and nothing outside `most`.
 struct Bounds {
     Polygon least, most;
     void cut(Vec<double> n, double from, double slack, double margin) {
@@ -192,7 +191,8 @@ Part bounded(const Subdivision& s, Cell&& open) {
     part.hi = all;
     if (!cell.pieces.empty() || !cell.region.empty() || cell.edges.size() > 2 || cell.sites.size() > 12) return part;
     const double h = cell.half * 1.4142135623730952;
-    const Polygon square{{-cell.half, -cell.half}, {cell.half, -cell.half}, {cell.half, cell.half}, {-cell.half, cell.half}};
+    const double half = cell.half;
+    const Polygon square{{-half, -half}, {half, -half}, {half, half}, {-half, half}};
     Bounds bounds{square, square};
     bool nothing_certain = false;
     for (const int i : cell.sites) {
