@@ -4,7 +4,7 @@
 Usage: experiments/travel_compared.py [--models FOLDER] [--program build/bin/ribvault] [--options "--shell-first ..."]
 
 All at h = 0.2 mm, d = 0.4 mm, one perimeter, one cover, lightning at 15 % (PrusaSlicer) and 2.6 mm line distance (CuraEngine), at equal
-speeds (40 mm/s shell, 60 mm/s infill or supports, 20 mm/s first layer, 150 mm/s travel), 3 mm retraction at 40 mm/s, no skirt.
+speeds (40 mm/s shell, 60 mm/s infill or supports, 20 mm/s first layer, 150 mm/s travel), no layer slower so that it sets, 3 mm retraction at 40 mm/s, no skirt.
 A travel is a run of moves without extrusion between two tracks, its length that in x and y; retractions are moves of the
 filament backwards. Time: the same estimate for all three files, trapezoids with PrusaSlicer's default limits, here once more in
 Python so that it does not depend on the program; it ignores heating. Slicers that are missing are left out, as are the
@@ -200,7 +200,7 @@ def main():
             for program in ["ribvault", *slicers]:
                 out.unlink(missing_ok=True)
                 if program == "ribvault":
-                    done = subprocess.run([arguments.program, "generate", source, *options, "-o", out, "--quiet", *shlex.split(arguments.options)])
+                    done = subprocess.run([arguments.program, "generate", source, *options, "-o", out, "--quiet", "--min-layer-time", "0", *shlex.split(arguments.options)])
                     good = done.returncode in (0, 1)
                 else:
                     good = slice_with(program, stl, out, folder / "log")

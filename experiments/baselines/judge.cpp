@@ -37,8 +37,7 @@ Judgement judge(const Stack& stack, const Hollowed& hollowed, const Settings& se
 double material_mm3(const Stack& stack, const Hollowed& hollowed, const Settings& settings) {
     double empty = 0;
     for (std::size_t i = 0; i < hollowed.cavities.size(); ++i)
-        empty += to_mm(i == 0 ? settings.first_layer_height : settings.layer_height) *
-                 area_to_mm2(signed_area(hollowed.cavities[i]));
+        empty += to_mm(settings.height_of(i)) * area_to_mm2(signed_area(hollowed.cavities[i]));
     return stack.volume_mm3 - empty + hollowed.track_volume_mm3;
 }
 

@@ -42,7 +42,7 @@ Stack slice_all(const Mesh& mesh, const Placement& placement, const Settings& se
         stack.room[static_cast<std::size_t>(i)] = std::move(room);
     });
     for (int i = 0; i < layers; ++i) {
-        const double height = to_mm(i == 0 ? settings.first_layer_height : settings.layer_height);
+        const double height = to_mm(settings.height_of(i));
         stack.volume_mm3 += height * area_to_mm2(signed_area(stack.slices[static_cast<std::size_t>(i)].rounded));
     }
     return stack;

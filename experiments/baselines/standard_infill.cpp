@@ -86,8 +86,7 @@ Hollowed standard_infill(const Stack& stack, Pattern pattern, double density, co
         if (!result.cavities[i].empty()) result.tracks[i] = cut(lines, result.cavities[i]);
     });
     for (std::size_t i = 0; i < result.tracks.size(); ++i) {
-        const double section =
-            to_mm(settings.nozzle) * to_mm(i == 0 ? settings.first_layer_height : settings.layer_height);
+        const double section = to_mm(settings.nozzle) * to_mm(settings.height_of(i));
         for (const Segment& s : result.tracks[i]) result.track_volume_mm3 += length(s) / units_per_mm * section;
     }
     return result;

@@ -76,7 +76,7 @@ void add_geometry(CLI::App* command, Written& w) {
                "keep external supports this far off the object, in plane (default 0)");
     outside->add_option("--support-gap-layers", s.support_gap_layers,
                         "leave so many layers empty between them and what they hold up (default 0)");
-    outside->add_flag("--bed-only", s.bed_only, "they stand on the bed, nowhere on the object");
+    outside->add_flag("--bed-only", s.bed_only, "external supports stand on the bed, nowhere on the object");
     add_length(outside, "--pillar-length", w.pillar_length,
                "track on every layer of a tree that stands free (default: ten times the nozzle)");
     const auto supports = command->add_option_group("Supports (Sections 4.1 to 4.3)");
@@ -196,7 +196,7 @@ void complete(Written& w) {
                         "--overlap: (1 - R) times the nozzle does not lie on the 10 nm lattice; use fewer decimals");
         s.support_radius = radius.get_num().get_si();
         if (s.support_radius < units_per_mm / 100)
-            throw Error(ErrorKind::usage, "--overlap leaves rho = " + std::to_string(to_mm(s.support_radius)) +
+            throw Error(ErrorKind::usage, "--overlap leaves rho = " + millimetres(s.support_radius) +
                                               " mm; at least 0.01 mm must be left of (1 - R) times the nozzle");
     }
     s.erosion_step = w.erosion_step.value_or(s.support_radius);
@@ -246,9 +246,12 @@ int run(Written& w, const CLI::App& command) {
                         std::string(error.what()) + " (settings were imported from " + w.imported_from + ")");
         }
     }();
-    if (!w.quiet) std::fputs(summary(report, w.job).c_str(), stdout);
+    progress.clear();
     // The paper's gaps are the user's choice; the report says what hangs because of them.
-    return report.verdict.proved && (report.verdict.print_proved || w.job.settings.gaps == Gaps::paper) ? 0 : 1;
+    const bool proved = report.verdict.proved && (report.verdict.print_proved || w.job.settings.gaps == Gaps::paper);
+    if (!w.quiet) std::fputs(summary(report, w.job).c_str(), stdout);
+    if (w.quiet && !proved) std::fputs(verdict_text(report, w.job).c_str(), stderr);
+    return proved ? 0 : 1;
 }
 
 }  // namespace

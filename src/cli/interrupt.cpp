@@ -1,15 +1,21 @@
 #include "cli/interrupt.hpp"
 
+#include <atomic>
 #include <csignal>
+
+#include "ribvault/output_file.hpp"
 
 namespace ribvault::cli {
 namespace {
 
-volatile std::sig_atomic_t flag = 0;
+std::atomic<bool> noted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may take no lock");
 
 void note(int signal) {
-    flag = 1;
-    std::signal(signal, SIG_DFL);  // a second Ctrl-C ends the program at once
+    if (!noted.exchange(true)) return;
+    discard_pending_files();  // a second one ends the program at once
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
 }
 
 }  // namespace
@@ -20,6 +26,6 @@ void catch_interrupts() {
     std::signal(SIGPIPE, SIG_IGN);
 }
 
-bool interrupted() noexcept { return flag != 0; }
+bool interrupted() noexcept { return noted; }
 
 }  // namespace ribvault::cli

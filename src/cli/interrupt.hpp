@@ -1,4 +1,5 @@
-// Ctrl-C and SIGTERM: noted once, acted on between layers; nothing is left under the final names.
+// Ctrl-C and SIGTERM: noted once, acted on between layers; a second one ends the program at once. Neither leaves
+// anything behind.
 #pragma once
 
 namespace ribvault::cli {

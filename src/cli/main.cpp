@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <map>
 
@@ -7,14 +9,55 @@
 
 namespace {
 
+/// Every option of a command, those in groups too.
+std::vector<const CLI::Option*> options_of(const CLI::App& command) {
+    std::vector<const CLI::Option*> options = command.get_options();
+    for (const CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; })) {
+        const std::vector<const CLI::Option*> more = options_of(*group);
+        options.insert(options.end(), more.begin(), more.end());
+    }
+    return options;
+}
+
+/// What is not expected, and the option that may have been meant: one that begins like it.
+std::string not_expected(const CLI::App& command, const std::string& word) {
+    if (word.empty() || word.front() != '-') return std::string("'").append(word).append("' is not expected");
+    std::string what = "there is no option " + word;
+    for (const CLI::Option* option : options_of(command))
+        for (const std::string& name : option->get_lnames()) {
+            const std::string full = "--" + name;
+            if (full.starts_with(word) || word.starts_with(full)) return what + "; do you mean " + full + "?";
+        }
+    return what;
+}
+
+/// A value that is none for its option, whose name CLI11's message ends with: "Could not convert: --x = y".
+std::string not_converted(const CLI::App& command, const std::string& message) {
+    for (const CLI::Option* option : options_of(command)) {
+        const std::string name = option->get_name();
+        if (option->results().empty() || message.find(": " + name + " = ") == std::string::npos) continue;
+        return name + ": '" + option->results().front() + "' is no " +
+               (option->get_type_name() == "INT" ? "whole number" : "number");
+    }
+    return message;
+}
+
 /// What the parser refuses, said as every other error is.
 std::string refusal(const CLI::App& app, const CLI::Error& error, const std::string& first_word) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
     std::string what = error.what(), command = "ribvault";
-    if (chosen.empty() && (first_word.empty() || first_word.front() != '-'))
-        what = (first_word.empty() ? std::string("no command") : "there is no command '" + first_word + "'") +
-               "; there are generate, verify and page";
-    if (!chosen.empty()) command += " " + chosen.front()->get_name();
+    if (chosen.empty()) {
+        if (first_word.empty() || first_word.front() != '-')
+            what = (first_word.empty() ? std::string("no command") : "there is no command '" + first_word + "'") +
+                   "; there are generate, verify and page";
+    } else {
+        command += " " + chosen.front()->get_name();
+        const std::vector<std::string> left = chosen.front()->remaining(true);
+        const auto option = std::find_if(left.begin(), left.end(), [](const std::string& w) { return w[0] == '-'; });
+        if (dynamic_cast<const CLI::ExtrasError*>(&error) && !left.empty())
+            what = not_expected(*chosen.front(), option == left.end() ? left.front() : *option);
+        if (dynamic_cast<const CLI::ConversionError*>(&error)) what = not_converted(*chosen.front(), what);
+    }
     return "ribvault: " + what + "; see " + command + " --help\n";
 }
 
@@ -39,6 +82,8 @@ int main(int argc, char** argv) {
     run[app.get_subcommand("page")] = page;
     try {
         app.parse(argc, argv);
+        cli::catch_interrupts();
+        return run.at(app.get_subcommands().front())();
     } catch (const CLI::Success& e) {
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
@@ -47,15 +92,11 @@ int main(int argc, char** argv) {
     } catch (const Error& e) {
         std::cerr << "ribvault: " << e.what() << '\n';
         return static_cast<int>(e.kind());
-    }
-    cli::catch_interrupts();
-    try {
-        return run.at(app.get_subcommands().front())();
-    } catch (const Error& e) {
-        std::cerr << "ribvault: " << e.what() << '\n';
-        return static_cast<int>(e.kind());
     } catch (const std::bad_alloc&) {
         std::cerr << "ribvault: out of memory; try a smaller model or --threads 1\n";
         return static_cast<int>(ErrorKind::bad_geometry);
+    } catch (const std::filesystem::filesystem_error& e) {
+        std::cerr << "ribvault: " << e.what() << '\n';
+        return static_cast<int>(ErrorKind::cannot_write);
     }
 }

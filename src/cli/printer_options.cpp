@@ -1,11 +1,7 @@
 #include "cli/printer_options.hpp"
 
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
 #include "ribvault/error.hpp"
+#include "ribvault/input_stream.hpp"
 #include "ribvault/print/import_prusaslicer.hpp"
 #include "ribvault/print/printer_profile.hpp"
 
@@ -13,13 +9,9 @@ namespace ribvault::cli {
 namespace {
 
 std::string text_of(const std::string& file) {
-    if (std::filesystem::is_directory(file)) throw Error(ErrorKind::unreadable, file + ": is a folder");
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    if (!in) throw Error(ErrorKind::unreadable, file + ": cannot be read");
-    if (text.str().find('\0') != std::string::npos) throw Error(ErrorKind::unreadable, file + ": is no text file");
-    return text.str();
+    std::string text = read_input(file, "text");
+    if (text.find('\0') != std::string::npos) throw Error(ErrorKind::unreadable, file + ": is no text file");
+    return text;
 }
 
 /// What was imported, in words.
@@ -66,7 +58,7 @@ void add_tracks(CLI::App* command, TrackSettings& t) {
                {{"zigzag", CoverPattern::zigzag},
                 {"monotonic", CoverPattern::monotonic},
                 {"concentric", CoverPattern::concentric}},
-               "how they are filled (default zigzag)");
+               "pattern of solid layers (default zigzag)");
     add_choice(group, "--seam", t.seam,
                {{"aligned", Seam::aligned}, {"corner", Seam::corner}, {"nearest", Seam::nearest}},
                "where outer perimeters begin (default aligned)");
@@ -103,6 +95,9 @@ void add_printer(CLI::App* command, PrinterSettings& p) {
     group->add_option("--print-speed", p.print_speed, "perimeters and covers, mm/s")->capture_default_str();
     group->add_option("--support-speed", p.support_speed, "supports, mm/s")->capture_default_str();
     group->add_option("--first-layer-speed", p.first_layer_speed, "mm/s")->capture_default_str();
+    group->add_option("--min-layer-time", p.min_layer_time, "s; a layer that would take less is printed slower")
+        ->capture_default_str();
+    group->add_option("--min-print-speed", p.min_print_speed, "mm/s; but not slower than this")->capture_default_str();
     group->add_option("--travel-speed", p.travel_speed, "mm/s")->capture_default_str();
     group->add_option("--retraction", p.retraction, "mm of filament")->capture_default_str();
     group->add_option("--retraction-speed", p.retraction_speed, "mm/s")->capture_default_str();

@@ -1,5 +1,7 @@
 #include "cli/verify_rules.hpp"
 
+#include "ribvault/error.hpp"
+
 namespace ribvault::cli {
 namespace {
 
@@ -12,10 +14,17 @@ CLI::Option* add_number(CLI::App* command, const std::string& name, Target& targ
 
 /// Names between commas; blanks around them do not count.
 void add_list(CLI::App* command, const std::string& name, std::vector<std::string>& target, const std::string& help) {
-    command->add_option_function<std::string>(name, [&target](const std::string& text) {
-        for (const std::string& part : CLI::detail::split(text, ','))
-            if (std::string entry = CLI::detail::trim_copy(part); !entry.empty()) target.push_back(std::move(entry));
-    }, help)->type_name("LIST");
+    command
+        ->add_option_function<std::string>(
+            name,
+            [&target, name](const std::string& text) {
+                for (const std::string& part : CLI::detail::split(text, ','))
+                    if (std::string entry = CLI::detail::trim_copy(part); !entry.empty())
+                        target.push_back(std::move(entry));
+                if (target.empty()) throw Error(ErrorKind::usage, name + ": '" + text + "' names nothing");
+            },
+            help)
+        ->type_name("LIST");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The one exception type of the library: what was wrong, where, what to do.
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -24,5 +25,10 @@ public:
 private:
     ErrorKind kind_;
 };
+
+/// Throws Error (interrupted) when `stop()` says so.
+inline void end_if(const std::function<bool()>& stop) {
+    if (stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+}
 
 }  // namespace ribvault

@@ -25,6 +25,7 @@ struct AtomicFile::Pending {
     explicit Pending(std::string n) : name(std::move(n)) {}
 
     static std::atomic<Pending*> first;
+    static std::atomic<bool> discarded;  ///< the program ends
     static Pending* add(std::string name) {
         auto* node = new Pending(std::move(name));
         node->next = first.load();
@@ -34,6 +35,7 @@ struct AtomicFile::Pending {
 };
 
 std::atomic<AtomicFile::Pending*> AtomicFile::Pending::first{nullptr};
+std::atomic<bool> AtomicFile::Pending::discarded{false};
 
 namespace {
 
@@ -115,6 +117,7 @@ void AtomicFile::open_beside_target() {
         descriptor_ = open_retrying(name.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
         if (descriptor_ >= 0) {
             pending_ = pending;
+            if (Pending::discarded) ::unlink(name.c_str());  // made after the handler had come by
             return;
         }
         pending->active = false;
@@ -196,6 +199,7 @@ void AtomicFile::commit() {
 
 void discard_pending_files() noexcept {
     const int saved = errno;
+    AtomicFile::Pending::discarded = true;
     for (const AtomicFile::Pending* node = AtomicFile::Pending::first.load(); node; node = node->next)
         if (node->active) ::unlink(node->name.c_str());
     errno = saved;

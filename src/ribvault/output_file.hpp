@@ -58,8 +58,8 @@ private:
     bool durable_ = true;
 };
 
-/// Removes the temporary files of all AtomicFiles that are not committed. May be called from a signal handler that ends
-/// the program: it takes no lock and allocates nothing.
+/// Removes the temporary files of all AtomicFiles that are not committed, and of all that are made from now on. To be
+/// called from a signal handler that ends the program: it takes no lock and allocates nothing.
 void discard_pending_files() noexcept;
 
 }  // namespace ribvault

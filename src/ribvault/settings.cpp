@@ -1,6 +1,9 @@
 #include "ribvault/settings.hpp"
 
+#include <algorithm>
+
 #include "ribvault/error.hpp"
+#include "ribvault/exact/rational.hpp"
 
 namespace ribvault {
 
@@ -8,8 +11,8 @@ void Settings::check() const {
     const auto refuse = [](const std::string& message) { throw Error(ErrorKind::usage, message); };
     const auto within = [&](Unit value, Unit lo, Unit hi, const char* name) {
         if (value < lo || value > hi)
-            refuse(std::string(name) + " is " + std::to_string(to_mm(value)) + " mm; it must lie between " +
-                   std::to_string(to_mm(lo)) + " and " + std::to_string(to_mm(hi)) + " mm");
+            refuse(std::string(name) + " is " + millimetres(value) + " mm; it must lie between " + millimetres(lo) +
+                   " and " + millimetres(hi) + " mm");
     };
     within(layer_height, 1000, 1000000, "--layer-height");
     within(first_layer_height, 1000, 1000000, "--first-layer-height");
@@ -20,7 +23,7 @@ void Settings::check() const {
     within(straighten_step, 0, support_radius, "--straighten-step");
     within(branch_bonus_length, 0, 100 * nozzle, "--branch-bonus");
     within(sampling_pitch, 400, nozzle, "--pitch");
-    within(slack, 10, nozzle / 20, "--slack");
+    within(slack, 10, std::min(nozzle / 20, support_radius / 8), "--slack");
     within(max_gap, 0, 1000000, "--max-gap");
     within(support_gap, 0, 500000, "--support-gap");
     within(pillar_length, nozzle, 10000000, "--pillar-length");

@@ -93,7 +93,13 @@ struct Settings {
     Unit reach_of_object() const {
         return stands_off() && support_gap + nozzle / 2 > support_radius ? support_gap + nozzle / 2 : support_radius;
     }
+    /// Is what lies outside the outline of the layer below held up otherwise than what lies inside: by the object from
+    /// farther off, or through a gap of layers?
+    bool outside_apart() const { return outside() && (support_gap_layers > 0 || reach_of_object() > support_radius); }
     bool outside() const { return support != Support::internal; }
+    Unit height_of(int layer) const { return layer == 0 ? first_layer_height : layer_height; }
+    /// z of layer's upper side, over the bed.
+    Unit top_of(int layer) const { return first_layer_height + layer * layer_height; }
 
     /// Throws Error (usage) naming the first setting that cannot be, and what it may be.
     void check() const;
@@ -125,6 +131,8 @@ struct PrinterSettings {
     double print_speed = 40;          ///< mm/s, perimeters and covers
     double support_speed = 60;        ///< mm/s
     double first_layer_speed = 20;    ///< mm/s
+    double min_layer_time = 5;        ///< s: a layer that would take less is printed slower, so that it sets
+    double min_print_speed = 10;      ///< mm/s: but not slower than this for that reason
     double travel_speed = 150;        ///< mm/s
     double retraction = 3;            ///< mm of filament
     double retraction_speed = 40;     ///< mm/s

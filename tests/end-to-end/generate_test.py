@@ -202,6 +202,35 @@ class Generate(unittest.TestCase):
         self.assertEqual((self.folder / "a.gcode").read_text(), "what the user had")
         self.assertEqual([p for p in self.folder.rglob("*") if p.is_file()], [self.folder / "a.gcode"])
 
+    def test_interrupted_twice(self):
+        child = subprocess.Popen([PROGRAM, "generate", CUBE, "--scale", "4", "--layer-height", "0.05", "-o", "a.gcode", "--svg", "pictures"],
+                                 cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        child.stderr.readline()
+        child.send_signal(signal.SIGINT)
+        child.send_signal(signal.SIGTERM)
+        child.communicate(timeout=30)
+        self.assertNotEqual(child.returncode, 0)
+        self.assertEqual([p for p in self.folder.rglob("*") if p.is_file()], [])
+
+    def test_names_no_file_can_have(self):
+        for option in ("--profile", "--import"):
+            done = self.run_program(CUBE, option, "a" * 300)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn("cannot be opened", done.stderr)
+        self.assertEqual(self.run_program("a" * 300).returncode, 3)
+
+    def test_what_is_meant_by_an_option(self):
+        for words, said in ((["--perimeter", "2"], "there is no option --perimeter; do you mean --perimeters?"), (["--what"], "there is no option --what"),
+                            (["--top-layers", "1.5"], "--top-layers: '1.5' is no whole number"), (["--rotate", "90", "0", "0"], "'0' is not expected")):
+            done = self.run_program(CUBE, *words)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(said, done.stderr)
+
+    def test_quiet_says_what_is_not_proved(self):
+        done = self.run_program(CUBE, "--gaps", "paper", "--quiet")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        self.assertIn("nothing was written; -o", self.run_program(CUBE).stdout)
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

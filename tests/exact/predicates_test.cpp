@@ -98,6 +98,7 @@ TEST_CASE("ties of a distance with a radius: 3-4-5 and its like") {
     check_tie({600000000, 800000000}, {{-800000000, 600000000}, {800000000, -600000000}}, 1000000000);
     check_tie({1, 1}, {{0, 0}, {2, 2}}, 0);
     CHECK(compare_distance(Point{0, 0}, {{far, far}, {far, far}}, far) == 1);
+    CHECK(compare_distance(Point{0, 1}, {{0, 0}, {0, 0}}, -2) == 1);
 }
 
 TEST_CASE("the distance of two segments: the nearest of their ends, or nothing where they cross") {

@@ -50,10 +50,33 @@ TEST_CASE("a fraction of decimals is the exact quotient") {
 }
 
 TEST_CASE("what is no number is refused with the option's name and the text") {
-    for (const std::string text :
-         {"",      " ",   "a",    ".",   "-",     "0,2",   "1.2.3",  "0.2mm",
-          "1 ",    " 1",  "1e",   "1e+", "1e1.5", "1/0",   "1/",     "/2",
-          "1/2/3", "--1", "0x10", "nan", "inf",   "1e101", "1e-999", "1e99999999999999999999"}) {
+    for (const std::string text : {"",
+                                   " ",
+                                   "a",
+                                   ".",
+                                   "-",
+                                   "0,2",
+                                   "1.2.3",
+                                   "0.2mm",
+                                   "1 ",
+                                   " 1",
+                                   "1e",
+                                   "1e+",
+                                   "1e1.5",
+                                   "1/0",
+                                   "1/",
+                                   "/2",
+                                   "1/2/3",
+                                   "--1",
+                                   "0x10",
+                                   "nan",
+                                   "inf",
+                                   "1e101",
+                                   "1e-999",
+                                   "1e99999999999999999999",
+                                   "0.1e-9223372036854775808",
+                                   "1e 5",
+                                   "1e+-5"}) {
         const std::string message = refusal([&] { parse(text); });
         INFO(message);
         CHECK(message.find("--scale") != std::string::npos);

@@ -13,6 +13,7 @@
 #include "ribvault/pipeline/generate.hpp"
 #include "ribvault/pipeline/prove_layer.hpp"
 #include "ribvault/pipeline/sweep_layers.hpp"
+#include "ribvault/pipeline/verify_print.hpp"
 #include "ribvault/verify/gap_check.hpp"
 #include "ribvault/verify/verify_layer.hpp"
 
@@ -111,6 +112,34 @@ TEST_CASE("random blocks in the air end proved with external supports, with and 
         CHECK(report.verdict.print_proved);
         CHECK(report.totals.external_support_volume_mm3 > 0);
         if (settings.support_gap == 0) CHECK(report.verdict.external_overhangs.empty());
+    }
+}
+
+TEST_CASE("inside the object supports that stand off let nothing hang: what is proved with them is supported without") {
+    const std::vector<Triangle> solid = box({0, 0, 0}, {12, 12, 8}) + box({10, 2, 5}, {18, 9, 8});
+    for (int round = 0; round < 8; ++round) {
+        Settings settings = with(Support::both, round % 2 == 0 ? 20000 : 0);
+        settings.support_radius = settings.erosion_step = settings.straighten_step = round < 4 ? 20000 : 8000;
+        settings.support_gap_layers = round % 4 == 1 ? 1 : 0;
+        settings.bed_only = round % 4 >= 2;
+        if (round % 3 == 2) settings.propagation = Propagation::shrink, settings.order = Order::doubling;
+        const ScratchFolder folder;
+        Job job;
+        job.model = folder / "solid.stl", job.gcode = folder / "out.gcode", job.settings = settings;
+        std::ofstream(job.model, std::ios::binary) << binary_stl(solid);
+        const RunReport report = generate(job);
+        INFO("round " << round);
+        CHECK(report.verdict.print_proved);
+        CHECK(report.totals.support_volume_mm3 > 5);
+        VerifyJob check;
+        check.gcode = *job.gcode, check.inside = true;
+        check.support_radius = Rational(settings.support_radius, units_per_mm);
+        CHECK(verify_print(check).supported);
+        // The same with what lies outside, as far as the gaps go.
+        check.inside = false;
+        check.support_gap = Rational(settings.support_gap, units_per_mm);
+        check.support_gap_layers = settings.support_gap_layers, check.bed_only = settings.bed_only;
+        CHECK(verify_print(check).supported);
     }
 }
 

@@ -49,7 +49,6 @@ TEST_CASE("a gap that lets nothing hang stays") {
     const PrintedLayer above = print_of({track(TrackKind::support, false, {{0, 10 * mm}, {9 * mm, 10 * mm}})});
     const HeldLayer held = hold_print(square_shell(), trunk_and_branch(), &above, {});
     CHECK(held.plan.gaps == 1);
-    CHECK_FALSE(held.mended);
     CHECK(judge_print(above, *held.printed, {}).supported);
 }
 
@@ -68,7 +67,6 @@ TEST_CASE("a gap over which a wall's side hangs is closed; with the paper's gaps
 
     settings.gaps = Gaps::proved;
     const HeldLayer proved = hold_print(square_shell(), trunk_and_branch(), &above, settings);
-    CHECK(proved.mended);
     CHECK(proved.closed_gaps > 0);
     CHECK(proved.patches == 0);
     CHECK(proved.plan.gaps == 0);

@@ -48,11 +48,4 @@ inline SupportForest random_forest(std::mt19937_64& random, int trees, int edges
     return forest;
 }
 
-inline double total_length(const SupportForest& forest) {
-    double sum = 0;
-    for (auto [e, end] = edges(forest); e != end; ++e)
-        sum += length(forest[target(*e, forest)].at - forest[source(*e, forest)].at);
-    return sum;
-}
-
 }  // namespace ribvault::test

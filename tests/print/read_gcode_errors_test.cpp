@@ -27,11 +27,18 @@ TEST_CASE("malformed lines: which line, and what was expected", "[gcode][errors]
     for (const char* bare : {"X20 E1\n", "x 20 e1\n", "F1200 X20 E1\n", "N7 X20Y5 E1*12\n"})
         CHECK_THAT(complaint(good + bare), Contains("line 4") && Contains("expected G0 to G3"));
     for (const char* two : {"G90 G1 X20 E1\n", "N7 G53 G1 X20 E1*12\n", "G1 Y10 G1 X20 E1\n", "G1 X20 E1 G91\n",
-                            "M83 G1 X20 E1\n", "T0 G1 X20 E1\n", "G92 E0 G1 X20\n", "M82 G90\n"})
+                            "M83 G1 X20 E1\n", "T0 G1 X20 E1\n", "G92 E0 G1 X20\n", "M82 G90\n",
+                            "M204 S800 G1 X20 E1\n", "M400 G1 X20 E1\n", "G4 P1 G1 X20 E1\n"})
         CHECK_THAT(complaint(good + two), Contains("line 4") && Contains("a second command"));
+    for (const char* hidden :
+         {"\xC2\xA0G1 X20 E1\n", "\fG1 X20 E1\n", ":G1 X20 E1\n", "\"G1 X20 E1\n", "/ G1 X20 E1\n"})
+        CHECK_THAT(complaint(good + hidden), Contains("line 4") && Contains("does not begin the line"));
+    CHECK_THAT(complaint(good + "(a; b) G1 X20 E1\n"), Contains("line 4") && Contains("a semicolon in a remark"));
+    CHECK(read(good + "N 12 G1 X20 E1\n").layers[0].tracks.size() == 2);
     CHECK(read(good + "G 1 X20 E1\n").layers[0].tracks.size() == 2);
-    for (const char* harmless : {"EXCLUDE_OBJECT NAME=a\n", "M117 G1 X20\n", "G90 ; G1\n", "Z_TILT_ADJUST\n",
-                                 "G29 G1\n", "E0_HEATER_OFF\n", "Z2_OFFSET\n", "T0 M6\n", "G1 F1200 M106\n"}) {
+    for (const char* harmless :
+         {"EXCLUDE_OBJECT NAME=a\n", "M117 G1 X20\n", "G90 ; G1\n", "(a; b) what\n", "%\n", "_START G=1\n",
+          "Z_TILT_ADJUST\n", "G29 G1\n", "E0_HEATER_OFF\n", "Z2_OFFSET\n", "T0 M6\n", "G1 F1200 M106\n"}) {
         const GcodePrint print = read(good + harmless + "G1 Y5 E1\n");
         REQUIRE(print.layers.size() == 1);
         REQUIRE(print.layers[0].tracks.size() == 2);

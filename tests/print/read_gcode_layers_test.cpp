@@ -81,6 +81,40 @@ TEST_CASE("layers much thinner than most for want of heights in the file are cou
     CHECK(read(";TYPE:a\n;HEIGHT:0.2\n" + object + support).thin_layers == 0);
 }
 
+TEST_CASE("what floats farther up than a layer can be high has air below it, whatever height the file says",
+          "[gcode]") {
+    std::string low = "M83\n";
+    for (int k = 1; k <= 5; ++k) low += "G1 Z" + std::to_string(0.2 * k) + "\nG1 X10 E1\nG1 X0\n";
+    const auto floating = [&](const std::string& before, const std::string& says, double z) {
+        return read(before + low + says + "G1 Z" + std::to_string(z) + "\nG1 X10 E1\n");
+    };
+    for (const std::string says : {"", ";HEIGHT:2.2\n"}) {
+        const GcodePrint slab = floating("; layer_height = 0.2\n", says, 3.2);
+        CHECK(height(slab.layers.back()) == Approx(0.2));
+        CHECK(slab.layers.back().below.empty());
+        CHECK(slab.layers.back().air_layers == 10);
+        CHECK(slab.layers_over_air == 1);
+    }
+    CHECK(floating("", "", 1.6).layers.back().below.empty());  // the usual distance is 0.2
+    CHECK(floating("; nozzle_diameter = 0.8\n", "", 1.9).layers.back().below.size() == 1);
+    CHECK(floating("", "", 1.4).layers_over_air == 0);
+    // Infill of several layers at once says its height, and layers lie between.
+    const GcodePrint combined = read(
+        "; layer_height = 0.1\nM83\n;HEIGHT:0.1\nG1 Z.1\nG1 X10 E1\nG1 Z.2\nG1 X0 E1\nG1 "
+        "Z.3\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\n;HEIGHT:0.3\nG1 X10 E1\n");
+    CHECK(height(combined.layers.back()) == Approx(0.3));
+    CHECK(combined.layers_over_air == 0);
+}
+
+TEST_CASE("ironing is part of its layer, however little it adds", "[gcode]") {
+    const GcodePrint print = read(
+        ";TYPE:Top solid infill\n;WIDTH:0.4\n;HEIGHT:0.2\nM83\nG1 Z.2\nG1 X10 E1\nG1 Z.4\nG1 X0 E1\n;TYPE:Ironing\n"
+        ";HEIGHT:0.0075\nG1 X10 E.1\n");
+    REQUIRE(print.layers.size() == 2);
+    CHECK(print.layers[1].tracks.size() == 2);
+    CHECK(height(print.layers[1]) == Approx(0.2));
+}
+
 TEST_CASE("a vase climbs from the first move over a layer on", "[gcode]") {
     std::string vase = "M83\nG1 Z.2\n";
     for (int k = 0; k <= 400; ++k) {

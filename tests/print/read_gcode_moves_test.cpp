@@ -99,6 +99,11 @@ TEST_CASE("volumetric E counts cubic millimetres", "[gcode]") {
     CHECK(width_of("M200 D1.75\n") == Approx(0.4));
     CHECK(width_of("; use_volumetric_e = 1\n") == Approx(0.4));
     CHECK(width_of("M200 D1.75\nM200 D0\n") == Approx(0.962).margin(0.001));
+    // Slic3r says so at the end, CuraEngine by the firmware that it writes for.
+    CHECK(width(track(read("G1 Z.2\nG1 X10 E.8001\n; use_volumetric_e = 1\n"), 0, 0)) == Approx(0.4));
+    CHECK(width_of(";FLAVOR:UltiGCode\n") == Approx(0.4));
+    CHECK(width_of(";FLAVOR:Marlin(Volumetric)\n") == Approx(0.4));
+    CHECK(width_of(";FLAVOR:Marlin\n") == Approx(0.962).margin(0.001));
 }
 
 TEST_CASE("short stretches share one flow", "[gcode]") {

@@ -136,7 +136,7 @@ int check_paths(const SupportForest& forest, const LayerPaths& layer, bool long_
         }
         for (const Segment& s : segments(path)) printed.push_back(s);
     }
-    CHECK(std::abs(sum + static_cast<double>(layer.gap_length) - total_length(forest)) <= 2 * layer.gaps + 1);
+    CHECK(std::abs(sum + static_cast<double>(layer.gap_length) - length(forest)) <= 2 * layer.gaps + 1);
     CHECK(static_cast<double>(layer.gap_length) <= layer.gaps * width + 1);
     for (std::size_t v = 0; v < num_vertices(forest); ++v) {
         if (rooted.parent[v] < 0) {

@@ -238,13 +238,40 @@ TEST_CASE("speeds: supports, the rest, the first layer") {
         return std::vector<ToolPath>{path_of(TrackKind::cover, {{0, 0}, {mm, 0}}),
                                      path_of(TrackKind::support, {{0, mm}, {mm, mm}})};
     };
-    const Parsed upper = parse(whole_layer(layer_of(paths(), 1), {}, {}).text);
+    PrinterSettings printer;
+    printer.min_layer_time = 0;
+    const Parsed upper = parse(whole_layer(layer_of(paths(), 1), {}, printer).text);
     REQUIRE(upper.tracks.size() == 2);
     CHECK(upper.tracks[0].feed_rate == 2400);
     CHECK(upper.tracks[1].feed_rate == 3600);
-    const Parsed bottom = parse(whole_layer(layer_of(paths(), 0), {}, {}).text);
+    const Parsed bottom = parse(whole_layer(layer_of(paths(), 0), {}, printer).text);
     CHECK(bottom.tracks[0].feed_rate == 1200);
     CHECK(bottom.tracks[1].feed_rate == 1200);
+}
+
+TEST_CASE("a layer that would set too little is printed slower, but not slower than it may be") {
+    const auto square = [](Unit side) {
+        ToolPath path = path_of(TrackKind::outer_perimeter, {{0, 0}, {side, 0}, {side, side}, {0, side}});
+        path.closed = true;
+        return std::vector<ToolPath>{path};
+    };
+    PrinterSettings plain, slow;
+    plain.min_layer_time = 0, slow.min_layer_time = 5, slow.min_print_speed = 10;
+    const auto at = [&](Unit side, const PrinterSettings& printer) {
+        return gcode_layer(layer_of(square(side), 1), {}, {}, printer);
+    };
+    // 80 mm at 40 mm/s: 2 s; so in 5 s at about 16 mm/s.
+    const LayerText fast = at(20 * mm, plain), slower = at(20 * mm, slow);
+    CHECK(parse(fast.body).tracks[0].feed_rate == 2400);
+    CHECK(parse(slower.body).tracks[0].feed_rate == Approx(960).margin(60));
+    CHECK(slower.statistics.seconds == Approx(5).margin(0.3));
+    CHECK(slower.statistics.filament == fast.statistics.filament);
+    const LayerText tip = at(mm, slow);
+    CHECK(parse(tip.body).tracks[0].feed_rate == 600);
+    CHECK(tip.statistics.seconds < 1);
+    CHECK(at(60 * mm, slow).body == at(60 * mm, plain).body);  // 6 s as it is
+    slow.min_print_speed = 100;                                // nothing gets faster
+    CHECK(at(20 * mm, slow).body == fast.body);
 }
 
 TEST_CASE("a layer begins and ends retracted; only long travels retract between") {
@@ -339,6 +366,28 @@ TEST_CASE("the header heats, homes, sets relative extrusion and leaves the filam
     printer.bed_temperature = 0;
     CHECK(gcode_header({}, {}, printer, facts).find("M190") == std::string::npos);
     CHECK(gcode_footer({}, printer, facts).find("M104 S0") != std::string::npos);
+}
+
+TEST_CASE("start G-code that heats itself leaves the supports' tool to the header, unless it names that tool") {
+    Settings settings;
+    settings.support = Support::both;
+    PrinterSettings printer;
+    printer.support_extruder = 1, printer.support_temperature = 225;
+    printer.start_gcode = "M109 S205\n", printer.end_gcode = "M104 S0\n";
+    const auto count = [](const std::string& text, const std::string& part) {
+        int times = 0;
+        for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++times;
+        return times;
+    };
+    const std::string header = gcode_header(settings, {}, printer, {}, "");
+    CHECK(header.find("M109 T1 S225") > header.find("M109 S205"));
+    CHECK(count(header, "M109 T1 S225") == 1);
+    CHECK(count(header, "so do the supports") == 1);
+    CHECK(count(gcode_footer(settings, printer, {}), "M104 T1 S0") == 1);
+    printer.start_gcode += "M109 T{support_extruder} S{support_temperature}\n";
+    const std::string own = gcode_header(settings, {}, printer, {}, "");
+    CHECK(count(own, "M109 T1 S225") == 1);
+    CHECK(count(own, "M104 T1") == 0);
 }
 
 TEST_CASE("printer settings that cannot be are named") {

@@ -14,7 +14,7 @@ PrintedTrack track(Rational ax, Rational ay, Rational bx, Rational by) {
 }
 
 RegionBoundary boundary_of(std::vector<PrintedTrack> above, std::vector<PrintedTrack> below) {
-    const PrintedVerdict verdict = verify_printed({0, 0, std::move(above)}, {0, 0, std::move(below)}, Rational(1, 5));
+    const PrintedVerdict verdict = verify_printed({std::move(above)}, {std::move(below)}, Rational(1, 5));
     REQUIRE(verdict.regions.size() == 1);
     return verdict.regions.front().boundary;
 }

@@ -139,7 +139,7 @@ TEST_CASE("a picture shows every track, root, junction, tip and dot of random fo
                                                        std::to_string(expected_junctions) + ", tips " +
                                                        std::to_string(expected_tips) + ", dots " +
                                                        std::to_string(expected_dots)));
-        const double length = test::total_length(forest) / mm;
+        const double length = ribvault::length(forest) / mm;
         CHECK(drawing.support_length_mm == Approx(length));
         for (const char* part : {tracks, centre})
             CHECK(total_length(picture.first(part)) ==

@@ -86,7 +86,7 @@ TEST_CASE("every wall is a closed solid, outwards oriented, of length times widt
                 6;
         }
         for (const auto& [edge, balance] : edges_used) REQUIRE(balance == 0);
-        CHECK(volume == Approx(test::total_length(forest) / mm * 0.4 * 0.2).epsilon(1e-4));
+        CHECK(volume == Approx(ribvault::length(forest) / mm * 0.4 * 0.2).epsilon(1e-4));
     }
 }
 

@@ -65,7 +65,7 @@ TEST_CASE("braces of random supports: long trees have two roots, nothing that wa
     for (int k = 0; k < 40; ++k) {
         GrownScene scene(g);
         if (num_edges(scene.forest) == 0) continue;
-        const std::vector<Segment> before = tracks_of(scene.forest);
+        const std::vector<Segment> before = centre_lines(scene.forest);
         SupportForest forest = scene.forest;
         const int added = brace_trees(forest, scene.boundary, mm);
         braces += added;

@@ -22,7 +22,7 @@ const SupportForest tree =
 TEST_CASE("in the same cavity supports stay what they are") {
     const CopiedSupports copy = copy_supports(tree, room(-300000, 0, 300000, 300000), true);
     CHECK(num_edges(copy.forest) == 3);
-    CHECK(total_length(copy.forest) == total_length(tree));
+    CHECK(length(copy.forest) == length(tree));
     CHECK(copy.origin == std::vector<std::int32_t>{0, 1, 2});
     for (auto [v, end] = vertices(copy.forest); v != end; ++v)
         CHECK(copy.forest[*v].root == (copy.forest[*v].at == Point{0, 0}));
@@ -53,7 +53,7 @@ TEST_CASE("a trunk is prolonged straight on to the shell that went back") {
     // What is inherited is the wall above, not its prolongation.
     double length_above = 0;
     for (const Segment& s : copy.inherited) length_above += length(s);
-    CHECK(length_above == total_length(tree));
+    CHECK(length_above == length(tree));
 }
 
 TEST_CASE("a trunk that does not point at the shell goes to its nearest point") {
@@ -87,7 +87,7 @@ TEST_CASE("a root that its own tree keeps from the shell becomes a tip when the 
     const CavityBoundary boundary = room(-900000, -20000, 200000, 300000);
     const CopiedSupports copy = copy_supports(hook, boundary, true);
     CHECK(num_edges(copy.forest) == 4);
-    CHECK(total_length(copy.forest) == total_length(hook));
+    CHECK(length(copy.forest) == length(hook));
     CHECK(crossings(copy.forest).count == 0);
     CHECK(forest_fault(copy.forest).empty());
 }
@@ -135,7 +135,7 @@ TEST_CASE("with ρ < r walls that meet the shell are inherited whole") {
     const CopiedSupports copy = copy_supports(tree, room(-300000, 40000, 300000, 300000), false);
     double length_above = 0;
     for (const Segment& s : copy.inherited) length_above += length(s);
-    CHECK(length_above == total_length(tree));
+    CHECK(length_above == length(tree));
 }
 
 TEST_CASE("copies in drifted cavities are rooted forests; no wall above inside the cavity is lost") {
@@ -152,8 +152,8 @@ TEST_CASE("copies in drifted cavities are rooted forests; no wall above inside t
         REQUIRE(placement_fault(copy.forest, boundary) == "");
         REQUIRE(leaving_wall(copy.forest, boundary) == "");
         REQUIRE(copy.origin.size() == num_edges(copy.forest));
-        const NearestSegment inherited(copy.inherited), tracks(tracks_of(copy.forest));
-        const std::vector<Segment> above = tracks_of(scene.forest);
+        const NearestSegment inherited(copy.inherited), tracks(centre_lines(copy.forest));
+        const std::vector<Segment> above = centre_lines(scene.forest);
         for (const std::int32_t o : copy.origin) REQUIRE(o < static_cast<std::int32_t>(num_edges(scene.forest)));
         for (const Segment& s : above)
             for (int q = 0; q <= 20; ++q) {

@@ -16,7 +16,7 @@ TEST_CASE("no point of a wall above that neither wall nor shell below holds up i
         GrownScene scene(g);
         if (scene.cavity.region.empty() || num_edges(scene.forest) == 0) continue;
         // Below, some of the walls are gone and the others have moved by up to a bit more than ρ.
-        const std::vector<Segment> above = tracks_of(scene.forest);
+        const std::vector<Segment> above = centre_lines(scene.forest);
         SupportForest below;
         for (const Segment& s : above) {
             if (pick(g, 0, 5) == 0) continue;
@@ -27,7 +27,7 @@ TEST_CASE("no point of a wall above that neither wall nor shell below holds up i
         }
         const Region region = unsupported_walls(above, below, &scene.cavity.deep, scene.settings);
         const PointLocation found(edges_of(region), 50000);
-        const NearestSegment tracks(tracks_of(below));
+        const NearestSegment tracks(centre_lines(below));
         const Unit r = 20000, rho = 20000;
         for (int q = 0; q < 1500; ++q) {
             const Segment& s = above[static_cast<std::size_t>(pick(g, 0, static_cast<Unit>(above.size()) - 1))];

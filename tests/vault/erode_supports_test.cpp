@@ -18,8 +18,8 @@ TEST_CASE("every point of grown supports lies within the step of the eroded ones
         for (int layer = 0; layer < 12 && num_vertices(forest) > 0; ++layer) {
             const Unit step = pick(g, 1, 3) * 10000 + pick(g, -1, 1);
             const ErodedSupports eroded = erode_supports(forest, step);
-            const NearestSegment left(tracks_of(eroded.forest));
-            for (const Segment& s : tracks_of(forest)) {
+            const NearestSegment left(centre_lines(eroded.forest));
+            for (const Segment& s : centre_lines(forest)) {
                 INFO("scene " << k << ", layer " << layer << ": " << text(s));
                 REQUIRE(within(s, left, step));
             }
@@ -29,7 +29,7 @@ TEST_CASE("every point of grown supports lies within the step of the eroded ones
             REQUIRE(std::count(eroded.survives.begin(), eroded.survives.end(), 1) ==
                     static_cast<long>(num_edges(eroded.forest)));
             // What is left is part of what was: every vertex within a rounding of it.
-            const NearestSegment before(tracks_of(forest));
+            const NearestSegment before(centre_lines(forest));
             for (const Segment& s : left.segments())
                 for (const Point p : {s.a, s.b})
                     REQUIRE(compare_distance(p, before.segments()[before.nearest(p).index], 1) <= 0);
@@ -49,9 +49,9 @@ TEST_CASE("a wall loses the step at its tip and nothing at its root") {
     CHECK(has_vertex(left, {0, 0}));
     // One unit short of the limit: rounding may not go beyond it.
     CHECK(has_vertex(left, {0, 80001}));
-    CHECK(total_length(erode_supports(wall, 0).forest) == 100000);
+    CHECK(length(erode_supports(wall, 0).forest) == 100000);
     const SupportForest between_shells = forest_of({{{0, 0}, {0, 100000}}, {0, 1}, {{0, 1}}});
-    CHECK(total_length(erode_supports(between_shells, 20000).forest) == 100000);
+    CHECK(length(erode_supports(between_shells, 20000).forest) == 100000);
 }
 
 TEST_CASE("the step goes on through vertices of valence 2, measured along the path") {
@@ -75,7 +75,7 @@ TEST_CASE("a short branch vanishes up to its junction, which stays and is pinned
     // A fork whose two arms vanish together leaves the whole trunk: the junction is a tip on the next layer only.
     const SupportForest fork =
         forest_of({{{0, 0}, {0, 50000}, {9000, 59000}, {-9000, 59000}}, {0}, {{0, 1}, {1, 2}, {1, 3}}});
-    CHECK(total_length(erode_supports(fork, 20000).forest) == 50000);
+    CHECK(length(erode_supports(fork, 20000).forest) == 50000);
 }
 
 TEST_CASE("a tree that is used up leaves its root as a dot, and a dot stays one") {

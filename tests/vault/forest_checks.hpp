@@ -12,22 +12,6 @@
 
 namespace ribvault::test {
 
-/// Centre lines, dots as segments of no length.
-inline std::vector<Segment> tracks_of(const SupportForest& forest) {
-    std::vector<Segment> tracks;
-    for (auto [e, end] = edges(forest); e != end; ++e)
-        tracks.push_back({forest[source(*e, forest)].at, forest[target(*e, forest)].at});
-    for (auto [v, end] = vertices(forest); v != end; ++v)
-        if (out_degree(*v, forest) == 0) tracks.push_back({forest[*v].at, forest[*v].at});
-    return tracks;
-}
-
-inline double total_length(const SupportForest& forest) {
-    double sum = 0;
-    for (const Segment& s : tracks_of(forest)) sum += length(s);
-    return sum;
-}
-
 inline std::string text(Point p) { return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")"; }
 inline std::string text(const Segment& s) { return text(s.a) + "-" + text(s.b); }
 
@@ -90,7 +74,7 @@ struct Crossings {
 };
 inline Crossings crossings(const SupportForest& forest) {
     Crossings result;
-    const NearestSegment walls(tracks_of(forest));
+    const NearestSegment walls(centre_lines(forest));
     for (std::uint32_t k = 0; k < walls.segments().size(); ++k) {
         const Segment& s = walls.segments()[k];
         Box box;

@@ -75,7 +75,7 @@ TEST_CASE("the root of a free tree moves to the middle of its longest path, tree
     CHECK(forest[root[0]].at == Point{200000, 0});
     CHECK(forest[root[0]].free);
     CHECK(num_edges(forest) == 2);
-    CHECK(total_length(forest) == 400000);
+    CHECK(length(forest) == 400000);
     centre_free_trees(forest);
     CHECK(num_edges(forest) == 2);
     SupportForest rooted = chain({{0, 0}, {400000, 0}});
@@ -107,15 +107,15 @@ TEST_CASE("erosion leaves a pillar's length of a free tree, layer after layer, a
     SupportForest rooted = forest;
     rooted[1].free = false;
     for (int layer = 0; layer < 60; ++layer) {
-        const double before = total_length(forest);
+        const double before = length(forest);
         forest = erode_supports(forest, 20000, 400000).forest;
         rooted = erode_supports(rooted, 20000, 400000).forest;
-        CHECK(total_length(forest) <= before);
-        CHECK(total_length(forest) >= 400000);
+        CHECK(length(forest) <= before);
+        CHECK(length(forest) >= 400000);
         CHECK(roots(forest).size() == 1);
     }
-    CHECK(total_length(forest) <= 400000 + 4);
-    CHECK(total_length(rooted) == 0);
+    CHECK(length(forest) <= 400000 + 4);
+    CHECK(length(rooted) == 0);
 }
 
 TEST_CASE("shrinking leaves a free tree that is no longer than a pillar alone, and others their root") {
@@ -124,17 +124,17 @@ TEST_CASE("shrinking leaves a free tree that is no longer than a pillar alone, a
     SupportForest forest = chain({{-700000, 0}, {0, 0}, {0, 900000}});
     forest[1].root = forest[1].free = true;
     for (int layer = 0; layer < 60; ++layer) {
-        const double before = total_length(forest);
+        const double before = length(forest);
         const ShrunkSupports shrunk = shrink_supports(forest, room, 20000, 400000);
-        CHECK(total_length(shrunk.forest) <= before);
-        if (before <= 400000) CHECK(total_length(shrunk.forest) == before);
+        CHECK(length(shrunk.forest) <= before);
+        if (before <= 400000) CHECK(length(shrunk.forest) == before);
         forest = shrunk.forest;
         REQUIRE(roots(forest).size() == 1);
         CHECK(forest[roots(forest)[0]].free);
         CHECK(forest[roots(forest)[0]].at == Point{0, 0});
     }
-    CHECK(total_length(forest) > 360000 - 4);  // two tips may each have taken a step from a little more than a pillar
-    CHECK(total_length(forest) <= 400000);
+    CHECK(length(forest) > 360000 - 4);  // two tips may each have taken a step from a little more than a pillar
+    CHECK(length(forest) <= 400000);
 }
 
 TEST_CASE("a wall to the object where that takes less track down to the bed, a pillar where it takes more") {
@@ -153,8 +153,7 @@ TEST_CASE("a wall to the object where that takes less track down to the bed, a p
         const std::vector<std::size_t> root = roots(supports.forest);
         REQUIRE(root.size() == 1);
         CHECK(supports.forest[root[0]].free == !c.wall);
-        CHECK(total_length(supports.forest) ==
-              Approx(c.wall ? static_cast<double>(c.distance) : 400000.0).margin(20000));
+        CHECK(length(supports.forest) == Approx(c.wall ? static_cast<double>(c.distance) : 400000.0).margin(20000));
         for (auto [v, end] = vertices(supports.forest); v != end; ++v) CHECK(supports.forest[*v].outside);
     }
 }
@@ -172,13 +171,13 @@ TEST_CASE(
                 above.forest, beside(layer, {rectangle(-1000000, -1000000, 0, 1000000)}, settings), {}, settings);
             CHECK(forest_fault(below.forest) == "");
             CHECK(component_count(below.forest) == trees);
-            CHECK(total_length(below.forest) <= total_length(above.forest) + 4);
-            CHECK(total_length(below.forest) >= 0.9 * 400000);  // straightening takes a little
-            for (const Segment& s : tracks_of(above.forest))
-                CHECK(within(s, NearestSegment(tracks_of(below.forest)), settings.support_radius));
+            CHECK(length(below.forest) <= length(above.forest) + 4);
+            CHECK(length(below.forest) >= 0.9 * 400000);  // straightening takes a little
+            for (const Segment& s : centre_lines(above.forest))
+                CHECK(within(s, NearestSegment(centre_lines(below.forest)), settings.support_radius));
             above = below;
         }
-        CHECK(total_length(above.forest) <= static_cast<double>(trees) * 400000 + 4);
+        CHECK(length(above.forest) <= static_cast<double>(trees) * 400000 + 4);
     }
 }
 

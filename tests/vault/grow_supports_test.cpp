@@ -48,7 +48,7 @@ TEST_CASE("everything unsupported lies within r + ρ of a wall, the walls inside
         if (scene.cavity.region.empty()) continue;
         Point bad;
         INFO("scene " << k);
-        const bool covered = within(scene.cavity.deep, tracks_of(scene.forest), 40000, bad);
+        const bool covered = within(scene.cavity.deep, centre_lines(scene.forest), 40000, bad);
         INFO("not covered about " << text(bad));
         REQUIRE(covered);
         REQUIRE(forest_fault(scene.forest) == "");
@@ -69,7 +69,7 @@ TEST_CASE("a coarse lattice of candidates and a small ρ cover everything as wel
         const Cavity cavity = make_cavity(0, scene.cavity.region, settings);
         const SupportForest forest = grow_supports({}, cavity.deep, scene.boundary, 3, settings);
         Point bad;
-        const bool covered = within(cavity.deep, tracks_of(forest), 27000, bad);
+        const bool covered = within(cavity.deep, centre_lines(forest), 27000, bad);
         INFO("scene " << k << ", not covered about " << text(bad));
         REQUIRE(covered);
         REQUIRE(forest_fault(forest) == "");
@@ -162,7 +162,7 @@ TEST_CASE("ties are broken by the seed: the same seed gives the same bytes, anot
     const auto grown = [](std::uint64_t seed) {
         std::string bytes;
         for (const Segment& s :
-             tracks_of(grow_supports({}, {rectangle(-900000, 20000, 900000, 1980000)}, room, seed, Settings{})))
+             centre_lines(grow_supports({}, {rectangle(-900000, 20000, 900000, 1980000)}, room, seed, Settings{})))
             bytes += text(s);
         return bytes;
     };

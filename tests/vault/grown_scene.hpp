@@ -43,7 +43,7 @@ inline bool has_vertex(const SupportForest& forest, Point p) {
     return false;
 }
 inline bool has_wall(const SupportForest& forest, Point a, Point b) {
-    for (const Segment& s : tracks_of(forest))
+    for (const Segment& s : centre_lines(forest))
         if ((s.a == a && s.b == b) || (s.a == b && s.b == a)) return true;
     return false;
 }

@@ -38,14 +38,14 @@ struct Stack {
     }
     LayerVerdict verdict(std::size_t upper) const {
         const auto view = [&](std::size_t i) {
-            return LayerGeometry{&exact, &cavities[i].region, tracks_of(supports[i].forest)};
+            return LayerGeometry{&exact, &cavities[i].region, centre_lines(supports[i].forest)};
         };
         return verify_layer(static_cast<int>(upper), view(upper), view(upper - 1), settings);
     }
     std::string tracks() const {
         std::string all;
         for (const LayerSupports& layer : supports)
-            for (const Segment& s : tracks_of(layer.forest)) all += text(s);
+            for (const Segment& s : centre_lines(layer.forest)) all += text(s);
         return all;
     }
 };
@@ -107,12 +107,12 @@ TEST_CASE("supports under a ceiling shrink and merge into the shell of a box tha
     slice.rounded = {rectangle(-wide, -wide, wide, wide)};
     SupportForest none;
     SupportForest forest = next_layer(none, box, overhang_over_cavity(box, slice, {}, settings), settings).forest;
-    CHECK(total_length(forest) > 2 * 600000);
+    CHECK(length(forest) > 2 * 600000);
     int layers = 0;
     for (; num_vertices(forest) > 0 && layers < 100; ++layers) {
-        const double before = total_length(forest);
+        const double before = length(forest);
         forest = next_layer(forest, box, overhang_over_cavity(box, slice, box, settings), settings).forest;
-        CHECK(total_length(forest) <= before);
+        CHECK(length(forest) <= before);
     }
     CHECK(layers > 10);
     CHECK(layers < 100);

@@ -20,15 +20,15 @@ TEST_CASE(
         for (int layer = 0; layer < 10 && num_edges(forest) > 0; ++layer, ++layers) {
             const Unit step = pick(g, 1, 3) * 10000;
             const ShrunkSupports shrunk = shrink_supports(forest, scene.boundary, step);
-            const NearestSegment left(tracks_of(shrunk.forest));
-            for (const Segment& s : tracks_of(forest)) {
+            const NearestSegment left(centre_lines(shrunk.forest));
+            for (const Segment& s : centre_lines(forest)) {
                 INFO("scene " << k << ", layer " << layer << ": " << text(s));
                 REQUIRE(within(s, left, step));
             }
             REQUIRE(forest_fault(shrunk.forest).empty());
             REQUIRE(crossings(shrunk.forest).count <= crossings(forest).count);
             REQUIRE(shrunk.survives.size() == num_edges(forest));
-            const double was = total_length(forest), is = total_length(shrunk.forest);
+            const double was = length(forest), is = length(shrunk.forest);
             REQUIRE(is < was);
             before_length += was, shrunk_length += is;
             for (auto [v, end] = vertices(forest); v != end; ++v)
@@ -52,7 +52,7 @@ TEST_CASE("a wall between two roots is cut in its middle and runs back on both s
     const ShrunkSupports cut = shrink_supports(wall, square(), 20000);
     CHECK(num_edges(cut.forest) == 2);
     CHECK(component_count(cut.forest) == 2);
-    CHECK(total_length(cut.forest) == Approx(2000000 - 40000).margin(10));
+    CHECK(length(cut.forest) == Approx(2000000 - 40000).margin(10));
     CHECK(cut.survives == std::vector<char>{1});
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("two walls from one root are zipped up from it") {
     const ShrunkSupports zipped = shrink_supports(fork, square(), 20000);
     CHECK(num_edges(zipped.forest) == 3);
     // Both tips run back by the step, and a stem of about the step replaces what the two walls had there.
-    CHECK(total_length(zipped.forest) < total_length(fork) - 2 * 19000 - 15000);
+    CHECK(length(zipped.forest) < length(fork) - 2 * 19000 - 15000);
 }
 
 TEST_CASE("a root slides along the shell towards its wall") {
@@ -82,5 +82,5 @@ TEST_CASE("a tree that is used up leaves its root as a dot; a step of nothing ch
     CHECK(num_edges(dot.forest) == 0);
     CHECK(dots_of(dot.forest) == 1);
     CHECK(dot.survives == std::vector<char>{0});
-    CHECK(total_length(shrink_supports(stub, square(), 0).forest) == 15000);
+    CHECK(length(shrink_supports(stub, square(), 0).forest) == 15000);
 }

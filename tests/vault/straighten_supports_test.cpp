@@ -21,8 +21,8 @@ bool fixed(const SupportForest& forest, std::size_t v, const std::vector<char>& 
 
 void check_step(const SupportForest& forest, const std::vector<char>& pinned, const StraightenedSupports& after,
                 Unit step) {
-    const NearestSegment tracks(tracks_of(after.forest));
-    for (const Segment& s : tracks_of(forest)) {
+    const NearestSegment tracks(centre_lines(after.forest));
+    for (const Segment& s : centre_lines(forest)) {
         INFO(text(s));
         REQUIRE(within(s, tracks, step));
     }
@@ -34,7 +34,7 @@ void check_step(const SupportForest& forest, const std::vector<char>& pinned, co
             near = near || squared_length(after.forest[*w].at - forest[*v].at) <= step * step;
         REQUIRE(near);
     }
-    REQUIRE(total_length(after.forest) <= total_length(forest) + 2.0 * static_cast<double>(num_edges(forest)));
+    REQUIRE(length(after.forest) <= length(forest) + 2.0 * static_cast<double>(num_edges(forest)));
     REQUIRE(forest_fault(after.forest).empty());
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("every point of grown supports lies within the step of the straightene
             REQUIRE(crossed.count == 0);
             REQUIRE(component_count(after.forest) == component_count(eroded.forest));
             if (!after.left_cavity) REQUIRE(leaving_wall(after.forest, scene.boundary).empty());
-            moved += total_length(after.forest) < total_length(eroded.forest);
+            moved += length(after.forest) < length(eroded.forest);
             blocked += after.blocked;
             if (after.left_cavity) break;  // such supports are clipped again before they go on
             forest = after.forest;
@@ -78,7 +78,7 @@ TEST_CASE("a zigzag becomes its chord, step by step as in Figure 13, its ends fi
         const StraightenedSupports after = straighten_supports(chain, pinned, wide, 20000);
         check_step(chain, pinned, after, 20000);
         CHECK_FALSE(after.left_cavity);
-        CHECK(total_length(after.forest) < total_length(chain));
+        CHECK(length(after.forest) < length(chain));
         chain = after.forest;
     }
     CHECK(layers >= 3);

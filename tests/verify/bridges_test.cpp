@@ -14,7 +14,7 @@ PrintedTrack track(double x0, double y0, double x1, double y1) {
 }
 
 /// Piers from x = 0 to 2 and from x = 8 to 10.
-PrintedLayer piers() { return {0, 0, {track(0, 0, 2, 0), track(8, 0, 10, 0)}}; }
+PrintedLayer piers() { return {{track(0, 0, 2, 0), track(8, 0, 10, 0)}}; }
 
 std::vector<Bridge> bridges(const PrintedLayer& upper, const std::vector<char>& continues, double longest,
                             const std::vector<char>& judged = {}) {
@@ -27,35 +27,35 @@ std::vector<Bridge> bridges(const PrintedLayer& upper, const std::vector<char>& 
 }  // namespace
 
 TEST_CASE("a straight span between two piers is a bridge up to its length", "[bridges]") {
-    const PrintedLayer upper{0, 0, {track(0, 0, 10, 0)}};
+    const PrintedLayer upper{{track(0, 0, 10, 0)}};
     REQUIRE(bridges(upper, {0}, 5.21).size() == 1);
     CHECK(bridges(upper, {0}, 5.21)[0].length_mm == Approx(5.2));
     CHECK(bridges(upper, {0}, 5.19).empty());
 }
 
 TEST_CASE("a bridge may have joints, if it is straight", "[bridges]") {
-    const PrintedLayer straight{0, 0, {track(0, 0, 4, 0), track(4, 0, 6, 0.005), track(6, 0.005, 10, 0)}};
+    const PrintedLayer straight{{track(0, 0, 4, 0), track(4, 0, 6, 0.005), track(6, 0.005, 10, 0)}};
     REQUIRE(bridges(straight, {0, 1, 1}, 6).size() == 1);
     CHECK(bridges(straight, {0, 1, 1}, 6)[0].pieces.size() == 3);
     CHECK(bridges(straight, {0, 0, 1}, 6).empty());  // a travel between: two free ends
-    const PrintedLayer bent{0, 0, {track(0, 0, 5, 0.1), track(5, 0.1, 10, 0)}};
+    const PrintedLayer bent{{track(0, 0, 5, 0.1), track(5, 0.1, 10, 0)}};
     CHECK(bridges(bent, {0, 1}, 6).empty());
-    const PrintedLayer back{0, 0, {track(0, 0, 5, 0), track(5, 0, 4, 0), track(4, 0, 10, 0)}};
+    const PrintedLayer back{{track(0, 0, 5, 0), track(5, 0, 4, 0), track(4, 0, 10, 0)}};
     CHECK(bridges(back, {0, 1, 1}, 20).empty());
 }
 
 TEST_CASE("a cantilever is no bridge", "[bridges]") {
-    CHECK(bridges({0, 0, {track(0, 0, 6, 0)}}, {0}, 100).empty());
-    CHECK(bridges({0, 0, {track(6, 0, 0, 0)}}, {0}, 100).empty());
-    CHECK(bridges({0, 0, {track(3, 0, 6, 0)}}, {0}, 100).empty());
-    CHECK(bridges({0, 0, {track(0, 5, 10, 5)}}, {0}, 100).empty());
-    CHECK(bridges({0, 0, {track(5, 0, 5, 0)}}, {0}, 100).empty());  // a dot in the air
+    CHECK(bridges({{track(0, 0, 6, 0)}}, {0}, 100).empty());
+    CHECK(bridges({{track(6, 0, 0, 0)}}, {0}, 100).empty());
+    CHECK(bridges({{track(3, 0, 6, 0)}}, {0}, 100).empty());
+    CHECK(bridges({{track(0, 5, 10, 5)}}, {0}, 100).empty());
+    CHECK(bridges({{track(5, 0, 5, 0)}}, {0}, 100).empty());  // a dot in the air
 }
 
 TEST_CASE("a track that is not judged holds no bridge", "[bridges]") {
-    const PrintedLayer upper{0, 0, {track(0, 0, 2.4, 0), track(2.4, 0, 10, 0)}};
+    const PrintedLayer upper{{track(0, 0, 2.4, 0), track(2.4, 0, 10, 0)}};
     CHECK(bridges(upper, {0, 1}, 6, {0, 1}).size() <= 1);
-    const PrintedLayer late{0, 0, {track(0, 0, 3, 0), track(3, 0, 10, 0)}};
+    const PrintedLayer late{{track(0, 0, 3, 0), track(3, 0, 10, 0)}};
     CHECK(bridges(late, {0, 1}, 6).size() == 1);
     CHECK(bridges(late, {0, 1}, 6, {0, 1}).empty());
 }
@@ -63,8 +63,8 @@ TEST_CASE("a track that is not judged holds no bridge", "[bridges]") {
 TEST_CASE("what is left without a bridge is held up and lies on the track", "[bridges]") {
     for (const bool joined : {false, true}) {
         const PrintedLayer upper =
-            joined ? PrintedLayer{0, 0, {track(0, 0, 2.5, 0), track(2.5, 0, 7.5, 0), track(7.5, 0, 10, 0)}}
-                   : PrintedLayer{0, 0, {track(0, 0, 10, 0)}};
+            joined ? PrintedLayer{{track(0, 0, 2.5, 0), track(2.5, 0, 7.5, 0), track(7.5, 0, 10, 0)}}
+                   : PrintedLayer{{track(0, 0, 10, 0)}};
         const std::vector<char> continues = joined ? std::vector<char>{0, 1, 1} : std::vector<char>{0};
         PrintedOptions lines;
         lines.areas = lines.regions = false;

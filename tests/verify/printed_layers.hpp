@@ -23,7 +23,7 @@ inline PrintedTrack track(const Rational& ax, const Rational& ay, const Rational
 inline PrintedTrack dot(const Rational& x, const Rational& y, const Rational& width) {
     return track(x, y, x, y, width);
 }
-inline PrintedLayer printed(std::vector<PrintedTrack> tracks) { return {0, q("0.2"), std::move(tracks)}; }
+inline PrintedLayer printed(std::vector<PrintedTrack> tracks) { return {std::move(tracks)}; }
 
 /// Squared distance of a point to the centre line of a track, in this file so that tests check witnesses by themselves.
 inline Rational squared_distance_to(const std::array<Rational, 2>& p, const PrintedTrack& t) {

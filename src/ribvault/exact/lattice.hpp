@@ -66,6 +66,13 @@ struct Box {
     bool empty() const { return lo.x > hi.x || lo.y > hi.y; }
 };
 
+/// What is within `beyond` of a segment's box.
+inline Box bounding_box(const Segment& s, Unit beyond = 0) {
+    Box box;
+    box.add(s.a), box.add(s.b);
+    box.grow(beyond);
+    return box;
+}
 inline Box bounding_box(const Region& region) {
     Box box;
     for (const Contour& c : region)

@@ -54,6 +54,7 @@ SquaredDistance squared_distance(Point p, const Segment& s) {
 }
 
 int compare_distance(Point p, const Segment& s, Unit radius) {
+    if (radius < 0) return 1;
     // |cross| < 2^63 and radius^2 * length^2 < 2^62 * 2^63: both sides fit 128 bits.
     const SquaredDistance d = squared_distance(p, s);
     const Int128 bound = static_cast<Int128>(radius) * radius * d.denominator;

@@ -24,7 +24,7 @@ struct SquaredDistance {
 };
 SquaredDistance squared_distance(Point p, const Segment& s);
 
-/// Sign of distance(p, s) - radius. Exact.
+/// Sign of distance(p, s) - radius, whatever the radius. Exact.
 int compare_distance(Point p, const Segment& s, Unit radius);
 /// Sign of distance(s, t) - radius, radius >= 0. Exact.
 int compare_distance(const Segment& s, const Segment& t, Unit radius);

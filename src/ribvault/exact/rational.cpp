@@ -1,6 +1,7 @@
 #include "ribvault/exact/rational.hpp"
 
 #include <cctype>
+#include <charconv>
 
 #include "ribvault/error.hpp"
 
@@ -31,14 +32,12 @@ Rational parse_decimal(std::string_view text, std::string_view whole, std::strin
     }
     if (!any) not_a_number(whole, what);
     if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
-        const std::string rest(text.substr(i + 1));
-        std::size_t used = 0;
-        try {
-            exponent += std::stol(rest, &used);
-        } catch (const std::exception&) {
-            not_a_number(whole, what);
-        }
-        i += 1 + used;
+        ++i;
+        if (i + 1 < text.size() && text[i] == '+' && text[i + 1] != '-') ++i;
+        long power = 0;
+        const auto [end, error] = std::from_chars(text.data() + i, text.data() + text.size(), power);
+        if (error != std::errc() || power > 1000 || power < -1000) not_a_number(whole, what);
+        exponent += power, i = static_cast<std::size_t>(end - text.data());
     }
     if (i != text.size() || exponent > 100 || exponent < -400) not_a_number(whole, what);
     mpz_class number(digits, 10), power;
@@ -56,6 +55,13 @@ Rational parse_rational(std::string_view text, std::string_view what) {
     const Rational denominator = parse_decimal(text.substr(slash + 1), text, what);
     if (denominator == 0) not_a_number(text, what);
     return parse_decimal(text.substr(0, slash), text, what) / denominator;
+}
+
+std::string millimetres(Unit length) {
+    std::string text = std::to_string(to_mm(length));  // six decimals
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text;
 }
 
 Unit parse_length(std::string_view text, std::string_view what) {

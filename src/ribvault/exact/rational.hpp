@@ -20,4 +20,7 @@ Rational parse_rational(std::string_view text, std::string_view what);
 /// Throws Error (usage) when it is not a number or finer than the lattice (10 nm).
 Unit parse_length(std::string_view text, std::string_view what);
 
+/// A length as decimals of a mm without closing zeros: "0.4".
+std::string millimetres(Unit length);
+
 }  // namespace ribvault

@@ -87,23 +87,25 @@ Placement orient(Mesh& mesh, const PlacementOptions& options) {
     return placement;
 }
 
-[[noreturn]] void too_large(const Size& size, const Size& bed, const Rational& scale, bool round_bed) {
+/// `high`: the size was given by --height.
+[[noreturn]] void too_large(const Size& size, const Size& bed, const Rational& scale, bool round_bed, bool high) {
     Rational fit = bed[0] / size[0];
     for (std::size_t k = 1; k < 3; ++k) fit = std::min<Rational>(fit, bed[k] / size[k]);
     // On a disc whatever has this box fits when the box does.
     if (round_bed) fit = std::min<Rational>(fit, bed[0] / Rational(std::hypot(size[0].get_d(), size[1].get_d())));
-    const double largest = Rational(scale * fit).get_d();
+    const double largest = Rational((high ? size[2] : scale) * fit).get_d();
     const double digits = std::pow(10.0, std::floor(std::log10(largest)) - 2);
-    throw Error(ErrorKind::does_not_fit, "the model is " + shown(size) + ", the bed " + shown(bed) +
-                                             "; use --scale " + shown(std::floor(largest / digits) * digits) +
+    throw Error(ErrorKind::does_not_fit, "the model is " + shown(size) + ", the bed " + shown(bed) + "; use " +
+                                             (high ? "--height " : "--scale ") +
+                                             shown(std::floor(largest / digits) * digits) +
                                              " or less, turn it with --rotate, or give the printer's size with --bed");
 }
 
-void check_size(const Size& size, const Size& bed, const Rational& scale, bool round_bed) {
+void check_size(const Size& size, const Size& bed, const Rational& scale, bool round_bed, bool high) {
     if (size[0] == 0 || size[1] == 0 || size[2] == 0)
         throw Error(ErrorKind::does_not_fit, "the model is " + shown(size) +
                                                  ": flat, so that no layer meets it; export the solid's surface");
-    if (size[0] > bed[0] || size[1] > bed[1] || size[2] > bed[2]) too_large(size, bed, scale, round_bed);
+    if (size[0] > bed[0] || size[1] > bed[1] || size[2] > bed[2]) too_large(size, bed, scale, round_bed, high);
     if (size[0] < 1 && size[1] < 1 && size[2] < 1)
         throw Error(ErrorKind::does_not_fit, "the model is only " + shown(size) + "; if the file is in metres or "
                                              "inches use --scale 1000 or --scale 25.4, otherwise --height");
@@ -137,7 +139,7 @@ Placement place(Mesh& mesh, const PlacementOptions& options) {
     Size size;
     for (std::size_t k = 0; k < 3; ++k) size[k] = placement.scale * extent[k];
     check_size(size, {Rational(options.bed_x), Rational(options.bed_y), Rational(options.bed_z)}, placement.scale,
-               options.round_bed);
+               options.round_bed, options.height_mm.has_value());
 
     placement.offset[0] = middle(options.origin_at_centre ? 0 : options.bed_x) - placement.scale * low[0] - size[0] / 2;
     placement.offset[1] = middle(options.origin_at_centre ? 0 : options.bed_y) - placement.scale * low[1] - size[1] / 2;

@@ -73,7 +73,7 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
     };
     tbb::parallel_pipeline(front.window(limit),
                            front.filter() & tbb::make_filter<TokenPtr, void>(tbb::filter_mode::serial_in_order, sweep));
-    if (stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+    end_if(stop);
 
     for (const Sweep& s : sweeps)
         chosen.candidates.push_back({s.settings.narrow_bonus, s.settings.seed, s.length / units_per_mm});

@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <deque>
 #include <memory>
-#include <numbers>
-#include <thread>
 
 #include "ribvault/error.hpp"
 #include "ribvault/mesh/orient_mesh.hpp"
@@ -22,13 +19,16 @@
 #include "ribvault/pipeline/prove_layer.hpp"
 #include "ribvault/pipeline/shape_outputs.hpp"
 #include "ribvault/pipeline/sweep_layers.hpp"
+#include "ribvault/pipeline/thread_limit.hpp"
 #include "ribvault/print/gcode_header.hpp"
+#include "ribvault/print/gcode_text.hpp"
 #include "ribvault/print/order_paths.hpp"
 #include "ribvault/print/skirt.hpp"
 #include "ribvault/print/thumbnail.hpp"
 #include "ribvault/print/write_gcode.hpp"
 #include "ribvault/report/layer_shapes.hpp"
 #include "ribvault/report/layer_svg.hpp"
+#include "ribvault/report/number_text.hpp"
 #include "ribvault/report/write_mesh.hpp"
 #include "ribvault/vault/wall_stability.hpp"
 #include "ribvault/verify/gap_check.hpp"
@@ -124,11 +124,14 @@ private:
             throw Error(ErrorKind::does_not_fit, job_.model.string() + ": no layer meets the model, which is " +
                                                      std::to_string(report_.input.size_mm[2]) +
                                                      " mm high; scale it up or use thinner layers");
+        if (const auto& size = report_.input.size_mm; *std::max_element(size.begin(), size.end()) < 5)
+            job_.warn(job_.model.string() + " is only " + fixed(size[0], 2) + " x " + fixed(size[1], 2) + " x " +
+                      fixed(size[2], 2) + " mm; is it in inches (--scale 25.4) or metres (--scale 1000)?");
         const Settings& settings = job_.settings;
         const auto warn_if_higher = [&](const char* what, Unit height, Unit width) {
             if (height > width)
-                job_.warn(what + std::to_string(to_mm(height)) + " mm high, more than its tracks are wide (" +
-                          std::to_string(to_mm(width)) + " mm): such tracks hardly stick to what is below");
+                job_.warn(what + millimetres(height) + " mm high, more than its tracks are wide (" +
+                          millimetres(width) + " mm): such tracks hardly stick to what is below");
         };
         warn_if_higher("the first layer is ", settings.first_layer_height, job_.tracks.width_on(0, settings.nozzle));
         if (slicer.layer_count() > 1) warn_if_higher("a layer is ", settings.layer_height, settings.nozzle);
@@ -206,7 +209,7 @@ private:
                 for (Point p : path.points) output->box.add(p);
         paths_ += (Time::now() - from).count();
 
-        const double height = to_mm(layer.layer == 0 ? s.first_layer_height : s.layer_height);
+        const double height = to_mm(s.height_of(layer.layer));
         const PrintStatistics& p = output->text.statistics;
         r.layer = layer.layer;
         r.z_mm = slicer.plane_height(layer.layer).get_d();
@@ -249,9 +252,8 @@ private:
             output->picture->finish();
         }
         if (job_.mesh) {
-            const Unit top = top_of_layer(layer.layer, s);
-            append_walls(swept.forest, top - (layer.layer == 0 ? s.first_layer_height : s.layer_height), top, s,
-                         output->walls);
+            const Unit top = s.top_of(layer.layer);
+            append_walls(swept.forest, top - s.height_of(layer.layer), top, s, output->walls);
         }
         if (job_.layers || job_.html) {
             const LayerShapes shapes =
@@ -320,8 +322,7 @@ private:
         LayerReport& r = output.report;
         r.travels = p.travels, r.travel_mm = p.travel, r.open_air_mm = p.open_air;
         r.retractions = p.retractions, r.detours = p.detours;
-        r.prime_surplus_mm3 =
-            p.prime_surplus * std::numbers::pi / 4 * job_.printer.filament_diameter * job_.printer.filament_diameter;
+        r.prime_surplus_mm3 = p.prime_surplus * filament_area(job_.printer);
         r.print_seconds = p.seconds;
         shapes_.add(r, output.shapes, output.packed);
         report_.layers.push_back(std::move(output.report));
@@ -357,7 +358,7 @@ private:
         const auto from = Time::now();
         if (gcode_) {
             const PrintFacts facts{total_, report_.totals.print_seconds, report_.totals.filament_mm, box_,
-                                   to_mm(top_of_layer(total_ - 1, job_.settings))};
+                                   to_mm(job_.settings.top_of(total_ - 1))};
             gcode_->write(gcode_header(job_.settings, job_.tracks, job_.printer, facts, thumbnails()));
             spool_->replay_backwards([&](std::string_view text) { gcode_->write(text); });
             gcode_->write(end_of_layers_);
@@ -373,8 +374,7 @@ private:
         }
         shapes_.write(report_);
         times_["write"] = seconds_since(from);
-        report_.machine.threads =
-            job_.threads > 0 ? job_.threads : static_cast<int>(std::thread::hardware_concurrency());
+        report_.machine.threads = static_cast<int>(thread_limit(job_.threads));
         report_.machine.stage_seconds = times_;
         report_.machine.seconds = seconds_since(start_);
         report_.machine.peak_memory_mb = peak_memory_mb();
@@ -382,7 +382,7 @@ private:
             json_->write(to_json(report_));
             json_->finish();
         }
-        if (job_.stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+        end_if(job_.stop);
         if (gcode_) gcode_->commit();
         if (walls_) walls_->commit();
         if (folder_) folder_->commit(svgs_);

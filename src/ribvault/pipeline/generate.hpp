@@ -29,10 +29,13 @@ struct Job {
 
 /// Reads, slices, hollows, sweeps, proves, and writes what the job names. Files appear under their names only when all
 /// of the run succeeded; a print that could not be proved is written all the same (RunReport::verdict says so). Throws
-/// Error as its parts do; then no file was written.
+/// Error as its parts do; then no file was written, unless it was a finished file that could not get its name.
 RunReport generate(const Job& job);
 
 /// The report in a few lines for people.
 std::string summary(const RunReport& report, const Job& job);
+
+/// Of these lines, those about what is proved and what is not.
+std::string verdict_text(const RunReport& report, const Job& job);
 
 }  // namespace ribvault

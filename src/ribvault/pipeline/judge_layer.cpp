@@ -132,14 +132,33 @@ std::optional<std::vector<std::size_t>> entries_below(const GcodePrint& print, s
     return std::vector<std::size_t>(entries.rbegin(), entries.rend());
 }
 
+void append(std::vector<PrintedTrack> more, std::vector<PrintedTrack>& tracks) {
+    std::move(more.begin(), more.end(), std::back_inserter(tracks));
+}
+
+GroupVerdict judge(const PrintedLayer& upper, const PrintedLayer& lower, const std::vector<char>& judged,
+                   const LayerRules& rules) {
+    PrintedOptions options;
+    options.judged = judged, options.distance_cells = distance_cells;
+    return located(verify_printed(upper, lower, rules.support_radius, options));
+}
+
+/// Enters a verdict over other tracks below, which come after those of `lower` then.
+void add_group(GroupVerdict more, PrintedLayer over, GroupVerdict& verdict, PrintedLayer& lower) {
+    for (UnsupportedRegion& region : more.all.regions)
+        for (BoundaryCurve& curve : region.boundary.curves)
+            if (!curve.above) curve.track += lower.tracks.size();
+    append(std::move(over.tracks), lower.tracks);
+    verdict.unlocated = verdict.unlocated || more.unlocated;
+    add_verdict(std::move(more.all), verdict.all);
+}
+
 /// All of `upper` over `lower`, the material directly below, or where the rules tell supports from the object, each
 /// over what may hold it up: all of that is `lower` then.
 GroupVerdict judge_groups(const GcodePrint& print, std::size_t entry, const PrintedLayer& upper, PrintedLayer& lower,
                           const std::vector<char>& judged, const LayerRules& rules) {
-    PrintedOptions options;
-    options.judged = judged, options.distance_cells = distance_cells;
     if (rules.object_reach == 0 && rules.gap_layers == 0 && !rules.supports_alone)
-        return located(verify_printed(upper, lower, rules.support_radius, options));
+        return judge(upper, lower, judged, rules);
     const auto is_support = [&](const PrintedTrack& t) {
         return print.features[static_cast<std::size_t>(t.feature)].kind == FeatureKind::support;
     };
@@ -163,17 +182,27 @@ GroupVerdict judge_groups(const GcodePrint& print, std::size_t entry, const Prin
         }
     if (rules.supports_alone) std::erase_if(lower.tracks, [&](const PrintedTrack& t) { return !is_support(t); });
     widen(lower), widen(under_object);
-    options.judged = group(true);
-    GroupVerdict verdict = located(verify_printed(upper, lower, rules.support_radius, options));
+    GroupVerdict verdict = judge(upper, lower, group(true), rules);
     if (!entries) return verdict;  // the bed holds up the object
-    options.judged = group(false);
-    GroupVerdict object = located(verify_printed(upper, under_object, rules.support_radius, options));
-    for (UnsupportedRegion& region : object.all.regions)
-        for (BoundaryCurve& curve : region.boundary.curves)
-            if (!curve.above) curve.track += lower.tracks.size();
-    std::move(under_object.tracks.begin(), under_object.tracks.end(), std::back_inserter(lower.tracks));
-    verdict.unlocated = verdict.unlocated || object.unlocated;
-    add_verdict(std::move(object.all), verdict.all);
+    GroupVerdict object = judge(upper, under_object, group(false), rules);
+    add_group(std::move(object), std::move(under_object), verdict, lower);
+    return verdict;
+}
+
+/// The same where gaps widen what holds up: they do so outside the outline of `lower` alone. Inside, everything must
+/// lie on what is directly below. What of `upper` lies outside comes after its tracks then.
+GroupVerdict judge_inside_and_outside(const GcodePrint& print, std::size_t entry, PrintedLayer& upper,
+                                      PrintedLayer& lower, std::vector<char> judged, const LayerRules& rules) {
+    PrintedLayer inside = lower;
+    append(stretches_outside(upper, lower), inside.tracks);
+    std::vector<PrintedTrack> outside = extruded_outside(upper, lower);
+    std::vector<char> apart(judged.size(), 0);
+    for (const PrintedTrack& t : outside) apart.push_back(rules.judged[static_cast<std::size_t>(t.feature)]);
+    append(std::move(outside), upper.tracks);
+    judged.resize(apart.size(), 0);
+    GroupVerdict verdict = judge_groups(print, entry, upper, lower, apart, rules);
+    GroupVerdict within = judge(upper, inside, judged, rules);
+    add_group(std::move(within), std::move(inside), verdict, lower);
     return verdict;
 }
 
@@ -209,15 +238,16 @@ JudgedLayer judge_layer(const GcodePrint& print, std::size_t entry, const LayerR
     };
     PrintedLayer lower = material_below(print, entry);
     PrintedLayer upper = layer_above(print, entry);
-    if (rules.inside) {
-        std::vector<PrintedTrack> outside = stretches_outside(upper, lower);
-        lower.tracks.insert(lower.tracks.end(), outside.begin(), outside.end());
-    }
+    if (rules.inside) append(stretches_outside(upper, lower), lower.tracks);
     if (rules.longest_bridge) {
-        const std::vector<char> judged = judged_of(upper);
-        upper = without_bridges(layer, std::move(upper), lower, judged, rules, result);
+        const std::vector<char> judged_bridges = judged_of(upper);
+        upper = without_bridges(layer, std::move(upper), lower, judged_bridges, rules, result);
     }
-    const auto [verdict, unlocated] = judge_groups(print, entry, upper, lower, judged_of(upper), rules);
+    const std::vector<char> judged = judged_of(upper);
+    const bool gaps = rules.object_reach != 0 || rules.gap_layers > 0;
+    const auto [verdict, unlocated] = rules.inside ? judge(upper, lower, judged, rules)
+                                      : gaps       ? judge_inside_and_outside(print, entry, upper, lower, judged, rules)
+                                                   : judge_groups(print, entry, upper, lower, judged, rules);
     out.stages += verdict.stages;
     for (std::size_t k = 0; k < upper.tracks.size(); ++k) {
         const Enclosure length{verdict.unsupported_length[k][0], verdict.unsupported_length[k][1]};

@@ -15,8 +15,10 @@ struct LayerRules {
     double min_area = 0;                     ///< mm²
     std::vector<char> judged;                ///< per feature
     bool inside = false;                     ///< only what lies inside the outline below (verify/outside_outline.hpp)
-    Rational object_reach = 0;  ///< mm: the object's tracks below count as so much wider to every side (removal gap)
-    int gap_layers = 0;                      ///< the object may lie on material that is so many layers farther down
+    /// mm: for what lies outside the outline below, the object's tracks count as so much wider to every side (removal
+    /// gap).
+    Rational object_reach = 0;
+    int gap_layers = 0;  ///< outside the outline below the object may lie on material so many layers farther down
     bool supports_alone = false;             ///< supports must lie on supports
 };
 

@@ -25,7 +25,7 @@ void append_layers(const PageJob& job, const std::filesystem::path& file, RunPag
     page.begin_run();
     LayersFile::Layer layer;
     while (layers.next(layer)) {
-        if (job.rules.stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+        end_if(job.rules.stop);
         page.add_layer(page_record(layer.numbers, packed_shapes(layer.shapes)));
     }
     page.end_run(page_facts(layers.header()));
@@ -52,7 +52,7 @@ void make_page(const PageJob& job) {
     for (const std::filesystem::path& run : job.runs)
         is_json(run) ? append_layers(job, run, page) : append_gcode(job, run, page);
     page.finish();
-    if (job.rules.stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+    end_if(job.rules.stop);
     file.commit();
 }
 

@@ -111,7 +111,7 @@ void OutsideRoom::find_ways_to_bed(const Slicer& slicer, int threads, const std:
                        tbb::make_filter<SlicePtr, std::vector<LayerPtr>>(filter_mode::serial_in_order, gather) &
                        tbb::make_filter<std::vector<LayerPtr>, std::vector<LayerPtr>>(filter_mode::parallel, keep_off) &
                        tbb::make_filter<std::vector<LayerPtr>, void>(filter_mode::serial_in_order, follow));
-    if (stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+    end_if(stop);
     ways_->finish();
 }
 

@@ -165,7 +165,7 @@ StageTimes sweep_layers(
                                tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::serial_in_order, hold) &
                                tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::parallel, complete) &
                                tbb::make_filter<TokenPtr, void>(filter_mode::serial_in_order, deliver));
-    if (stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+    end_if(stop);
     StageTimes times = front.seconds();
     times["sweep"] = sweeping.seconds(), times["hold"] = holding.seconds(), times["finish"] = finishing.seconds();
     return times;

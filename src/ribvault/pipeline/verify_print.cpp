@@ -3,7 +3,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <mutex>
@@ -36,12 +35,23 @@ std::string lower(std::string text) {
     return text;
 }
 
-/// Per feature of the print: whether the list names it or its kind. An entry that names none is refused.
+/// Per feature of the print: whether it has tracks.
+std::vector<char> printed_features(const GcodePrint& print) {
+    std::vector<char> printed(print.features.size(), 0);
+    for (const GcodeLayer& layer : print.layers)
+        for (const GcodeTrack& t : layer.tracks) printed[t.feature] = 1;
+    return printed;
+}
+
+/// Per feature of the print: whether the list names it or its kind. An entry that names none that is printed is
+/// refused.
 std::vector<char> named(const GcodePrint& print, const std::vector<std::string>& list, const char* option) {
     std::vector<char> chosen(print.features.size(), 0);
+    const std::vector<char> printed = printed_features(print);
     for (const std::string& entry : list) {
         bool any = false;
         for (std::size_t k = 0; k < print.features.size(); ++k) {
+            if (!printed[k]) continue;
             if (lower(entry) != lower(print.features[k].name) && lower(entry) != kind_name(print.features[k].kind))
                 continue;
             chosen[k] = 1;
@@ -49,8 +59,8 @@ std::vector<char> named(const GcodePrint& print, const std::vector<std::string>&
         }
         if (any) continue;
         std::set<std::string> known;
-        for (const GcodeLayer& layer : print.layers)
-            for (const GcodeTrack& t : layer.tracks) known.insert(print.features[t.feature].name);
+        for (std::size_t k = 0; k < print.features.size(); ++k)
+            if (printed[k]) known.insert(print.features[k].name);
         std::string names;
         for (const std::string& name : known) names += (names.empty() ? "'" : ", '") + name + "'";
         refuse(std::string(option) + ": the print has no '" + entry + "'; it has " + names +
@@ -134,6 +144,10 @@ private:
                 "the file does not say how high layers are, and " + std::to_string(print_.thin_layers) +
                 " come out at most half as high as those beside them, as where objects or supports have layers of "
                 "their own; then it cannot be judged rightly: export it with ;HEIGHT: comments");
+        if (print_.layers_over_air > 0)
+            job_.warn(
+                std::to_string(print_.layers_over_air) +
+                " of the layers lie farther over the next lower one than a layer can be high: there is air below");
         if (print_.widths_computed > 0 && report_.filament_source == "default")
             job_.warn(
                 "widths are computed from E with filament of 1.75 mm, as the file names none; --filament-diameter says "
@@ -163,11 +177,12 @@ private:
         report_.boundaries = job_.boundaries;
         report_.min_area_mm2 = job_.min_area.get_d();
         report_.inside = job_.inside;
-        if (job_.support_gap) {
-            if (*job_.support_gap < 0) refuse("--support-gap must be 0 or more");
-            report_.support_gap_mm = job_.support_gap->get_d();
-            object_reach_ = std::max<Rational>(0, *job_.support_gap + nozzle / 2 - radius_);
-        }
+        const Rational gap = job_.support_gap.value_or(0);
+        if (gap < 0) refuse("--support-gap must be 0 or more");
+        report_.support_gap_mm = gap.get_d();
+        // Supports that stand off keep their edge off the object's.
+        if (job_.support_gap || job_.support_gap_layers > 0 || job_.bed_only)
+            object_reach_ = std::max<Rational>(0, gap + nozzle / 2 - radius_);
         if (job_.support_gap_layers < 0 || job_.support_gap_layers > 100)
             refuse("--support-gap-layers must lie between 0 and 100");
         report_.support_gap_layers = job_.support_gap_layers;
@@ -189,8 +204,10 @@ private:
         if (!job_.features.empty()) judged_ = named(print_, job_.features, "--features");
         const std::vector<char> ignored = named(print_, job_.ignored_features, "--ignore-features");
         for (std::size_t k = 0; k < judged_.size(); ++k) judged_[k] = judged_[k] != 0 && ignored[k] == 0 ? 1 : 0;
-        if (std::none_of(judged_.begin(), judged_.end(), [](char chosen) { return chosen != 0; }))
-            refuse("--features and --ignore-features leave nothing to judge");
+        const std::vector<char> printed = printed_features(print_);
+        bool any = false;
+        for (std::size_t k = 0; k < judged_.size(); ++k) any = any || (judged_[k] != 0 && printed[k] != 0);
+        if (!any) refuse("--features and --ignore-features leave nothing to judge");
     }
 
     void judge() {
@@ -210,7 +227,7 @@ private:
             const std::lock_guard lock(reporting);
             job_.progress(++done, total);
         });
-        if (job_.stop()) throw Error(ErrorKind::interrupted, "interrupted; nothing was written");
+        end_if(job_.stop);
         for (std::size_t k = 0; k < print_.features.size(); ++k) {
             HangingFeature f;
             f.name = print_.features[k].name;
@@ -252,6 +269,7 @@ private:
         if (page_) page_->finish();
         if (json_) json_->finish();
         for (AtomicFile& picture : pictures) picture.finish();
+        end_if(job_.stop);
         if (folder_) folder_->commit(pictures);
         if (page_) page_->commit();
         if (json_) json_->commit();

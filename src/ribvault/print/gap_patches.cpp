@@ -1,7 +1,6 @@
 #include "ribvault/print/gap_patches.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "ribvault/exact/predicates.hpp"
 #include "ribvault/vault/cavity_boundary.hpp"
@@ -34,21 +33,16 @@ bool GapPatches::may_stand(const Segment& s) const {
         return patch.kind == TrackKind::support && distance(patch.segment, s) < static_cast<double>(apart());
     };
     if (std::any_of(patches_.begin(), patches_.end(), too_near)) return false;
-    Box box;
-    box.add(s.a), box.add(s.b);
     bool crosses = false;
-    walls_.edges.visit(box,
+    walls_.edges.visit(bounding_box(s),
                        [&](std::uint32_t k) { crosses = crosses || segments_touch(walls_.edges.segments()[k], s); });
     return !crosses && walls_.holds(s.a);
 }
 
 /// How far a patch of the object is from what is printed outside, as far as apart() and a hair.
 double GapPatches::room_around(const Segment& patch) const {
-    Box box;
-    box.add(patch.a), box.add(patch.b);
-    box.grow(apart() + 1);
     double room = static_cast<double>(apart() + 1);
-    tracks_.segments().visit(box, [&](std::uint32_t k) {
+    tracks_.segments().visit(bounding_box(patch, apart() + 1), [&](std::uint32_t k) {
         const PlanTracks::Place place = tracks_.place(k);
         if (plan_.tracks[place.track].paths[place.path].kind == TrackKind::external_support)
             room = std::min(room, distance(tracks_.segments().segments()[k], patch));
@@ -211,11 +205,8 @@ bool GapPatches::supports_reach_rim(Point p) const {
 bool GapPatches::is_printed(Point p, Unit beyond) const {
     if (air_.edges.empty()) return false;
     const Point foot = nearest_of_slice(p);
-    Box box;
-    box.add(foot);
-    box.grow(2 * settings_.nozzle);
     bool printed = false;
-    tracks_.segments().visit(box, [&](std::uint32_t k) {
+    tracks_.segments().visit(bounding_box({foot, foot}, 2 * settings_.nozzle), [&](std::uint32_t k) {
         const PlanTracks::Place place = tracks_.place(k);
         const Unit width = plan_.tracks[place.track].paths[place.path].width;
         printed = printed || compare_distance(foot, tracks_.segments().segments()[k], width / 2 + beyond) <= 0;

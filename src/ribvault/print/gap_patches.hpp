@@ -2,7 +2,6 @@
 // these keeps off the object.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 

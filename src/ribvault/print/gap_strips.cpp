@@ -80,6 +80,18 @@ double area_of(std::vector<PlannedTrack>::const_iterator from, std::vector<Plann
     return area;
 }
 
+/// The centre lines of tracks, and how wide each is.
+struct WideLines {
+    std::vector<Segment> lines;
+    std::vector<Unit> widths;
+    void append(const PlannedTrack& track) {
+        for (const ToolPath& path : track.paths) {
+            append_segments(path, lines);
+            widths.resize(lines.size(), path.width);
+        }
+    }
+};
+
 /// The outlines of the covering slices.
 class CoveringOutlines {
 public:
@@ -99,11 +111,8 @@ public:
                 return outline.locate(piece.centre.a) == Side::outside;
             }))
             return false;
-        Box box;
-        box.add(piece.centre.a), box.add(piece.centre.b);
-        box.grow(piece.width / 2);
         bool touched = false;
-        edges_.visit(box, [&](std::uint32_t k) {
+        edges_.visit(bounding_box(piece.centre, piece.width / 2), [&](std::uint32_t k) {
             if (!touched) touched = compare_distance(edges_.segments()[k], piece.centre, piece.width / 2) < 0;
         });
         return !touched;
@@ -137,36 +146,25 @@ void append_strips(std::vector<PlannedTrack> strips, const Covering& covering, U
 
 std::vector<StripReach> seem_to_hang(const std::vector<Lane>& above, const std::vector<Segment>& walls,
                                      const LayerPlan& plan, const Settings& settings) {
-    std::vector<Segment> lines;
-    const auto append_lines = [&](const std::vector<PlannedTrack>& tracks, std::vector<Unit>& widths) {
-        for (const PlannedTrack& track : tracks)
-            for (const ToolPath& path : track.paths) {
-                append_segments(path, lines);
-                widths.resize(lines.size(), path.width);
-            }
-    };
-    std::vector<Unit> widths, spare_widths;
-    append_lines(plan.spare, spare_widths);
-    const NearestSegment spare(std::exchange(lines, {}));
-    append_lines(plan.tracks, widths);
-    lines.insert(lines.end(), walls.begin(), walls.end());
-    widths.resize(lines.size(), settings.nozzle);
-    const NearestSegment below(std::move(lines));
+    WideLines printed, not_printed;
+    for (const PlannedTrack& track : plan.tracks) printed.append(track);
+    for (const PlannedTrack& track : plan.spare) not_printed.append(track);
+    printed.lines.insert(printed.lines.end(), walls.begin(), walls.end());
+    printed.widths.resize(printed.lines.size(), settings.nozzle);
+    const NearestSegment spare(std::move(not_printed.lines)), below(std::move(printed.lines));
     std::vector<StripReach> hanging;
     if (spare.empty() || below.empty()) return hanging;
-    const Unit widest = *std::max_element(spare_widths.begin(), spare_widths.end());
+    const Unit widest = *std::max_element(not_printed.widths.begin(), not_printed.widths.end());
     const auto rho = static_cast<double>(settings.support_radius);
     const auto holds = [&](Point p, double more) {
         const NearestSegment::Hit hit = below.nearest(p);
-        const double far = static_cast<double>(widths[hit.index]) / 2 + more;
+        const double far = static_cast<double>(printed.widths[hit.index]) / 2 + more;
         return far >= 0 && hit.distance.value() <= far * far;
     };
     for (const Lane& lane : above) {
-        Box box;
-        box.add(lane.centre.a), box.add(lane.centre.b);
-        box.grow(lane.width / 2 + settings.support_radius + widest / 2);
         bool near = false;
-        spare.visit(box, [&](std::uint32_t) { near = true; });
+        spare.visit(bounding_box(lane.centre, lane.width / 2 + settings.support_radius + widest / 2),
+                    [&](std::uint32_t) { near = true; });
         if (!near) continue;
         const auto parts = std::max(
             1, static_cast<int>(std::ceil(2 * length(lane.centre) / static_cast<double>(settings.nozzle))));
@@ -196,10 +194,7 @@ bool print_strips_under(const std::vector<StripReach>& hanging, Unit d, LayerPla
         std::vector<Piece> pieces = pieces_of(strip, d);
         for (Piece& piece : pieces) {
             const double half = static_cast<double>(piece.width) / 2;
-            Box box;
-            box.add(piece.centre.a), box.add(piece.centre.b);
-            box.grow(static_cast<Unit>(std::ceil(farthest + half)));
-            near.visit(box, [&](std::uint32_t k) {
+            near.visit(bounding_box(piece.centre, static_cast<Unit>(std::ceil(farthest + half))), [&](std::uint32_t k) {
                 if (!piece.chosen)
                     piece.chosen = distance(piece.centre, hanging[k].stretch) <= hanging[k].reach + half;
             });
@@ -210,6 +205,27 @@ bool print_strips_under(const std::vector<StripReach>& hanging, Unit d, LayerPla
     }
     plan.unfilled_area -= area_of(plan.tracks.begin() + static_cast<std::ptrdiff_t>(before), plan.tracks.end());
     return plan.tracks.size() > before;
+}
+
+void reach_over_strips(const LayerPlan& plan, Unit d, SupportForest& forest) {
+    WideLines object;  // without the tracks of walls of several lines
+    for (const PlannedTrack& track : plan.tracks)
+        if (!is_support(track.paths.front().kind)) object.append(track);
+    const NearestSegment tracks(std::move(object.lines));
+    if (tracks.empty()) return;
+    const auto width = static_cast<double>(d);
+    for (std::size_t v = 0, before = num_vertices(forest); v < before; ++v) {
+        const SupportVertex root = forest[v];
+        if (!root.root || root.free || root.outside || out_degree(v, forest) != 1) continue;
+        const NearestSegment::Hit hit = tracks.nearest(root.at);
+        const double half = static_cast<double>(object.widths[hit.index]) / 2, wanted = half + width / 4,
+                     far = std::sqrt(hit.distance.value());
+        if (far <= wanted + width / 40 || far > half + 2 * width) continue;
+        const auto w = add_vertex(root, forest);
+        forest[w].at = part_way(nearest_point(root.at, tracks.segments()[hit.index]), root.at, wanted / far);
+        forest[v].root = false;
+        add_edge(v, w, forest);
+    }
 }
 
 }  // namespace ribvault

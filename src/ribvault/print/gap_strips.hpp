@@ -8,6 +8,7 @@
 #include "ribvault/print/place_dot.hpp"
 #include "ribvault/settings.hpp"
 #include "ribvault/slice/slice.hpp"
+#include "ribvault/vault/support_forest.hpp"
 
 namespace ribvault {
 
@@ -43,5 +44,10 @@ std::vector<StripReach> seem_to_hang(const std::vector<Lane>& above, const std::
 /// than a travel. Parts begin and end at most d from where they must, at points of the lattice (a choice). Are there
 /// any?
 bool print_strips_under(const std::vector<StripReach>& hanging, Unit d, LayerPlan& plan);
+
+/// Walls in cavities that end at a strip in which the plan prints nothing go on through it until they overlap the next
+/// track of the object by d / 4, as slicers let their infill overlap perimeters: their root moves there (a placement)
+/// and where it was stays a vertex. Strips up to 2 d wide are bridged, and only at roots with one wall.
+void reach_over_strips(const LayerPlan& plan, Unit d, SupportForest& forest);
 
 }  // namespace ribvault

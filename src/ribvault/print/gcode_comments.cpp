@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 namespace ribvault {
 namespace {
@@ -164,7 +163,8 @@ void GcodeComments::note_program(std::string_view comment) {
 void GcodeComments::read_setting(std::string_view key, std::string_view value) {
     if (key == "filament_diameter" || key == "filamentDiameters") {
         if (auto found = diameters(value); !found.empty()) filaments = std::move(found);
-    } else if (key == "nozzle_diameter" || key == "extruderDiameter") {
+    } else if (key == "nozzle_diameter" || key == "extruderDiameter" || key == "NOZZLE_DIAMETER" ||
+               key == "EXTRUDER_TRAIN.0.NOZZLE.DIAMETER") {
         if (auto found = diameters(value); !found.empty()) nozzles = std::move(found);
     } else if (key == "layer_height" || key == "layerHeight" || key == "Layer height") {
         layer_height = height_of(value);
@@ -172,6 +172,8 @@ void GcodeComments::read_setting(std::string_view key, std::string_view value) {
         first_layer_height = height_of(value);
     } else if (key == "use_volumetric_e") {
         volumetric = value == "1";
+    } else if (key == "FLAVOR") {  // Cura's; UltiGCode's E is volume
+        volumetric = value == "UltiGCode" || value.find("Volumetric") != std::string_view::npos;
     }
 }
 
@@ -241,7 +243,8 @@ void GcodeComments::read_behind_move(std::string_view comment) {
 }
 
 std::string GcodeComments::missing_end() const {
-    if (layers_announced_ > layers_named_ && layers_named_ > 0)
+    // Cura counts layers in which nothing is printed.
+    if (layers_announced_ > layers_named_ && layers_named_ > 0 && !(ended_ && flavour == GcodeFlavour::cura))
         return "it announces " + std::to_string(layers_announced_) + " layers and names " +
                std::to_string(layers_named_);
     if (ended_) return {};

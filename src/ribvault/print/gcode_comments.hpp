@@ -13,9 +13,9 @@ namespace ribvault {
 /// Reads comments one after the other and keeps what they said last.
 ///
 /// Feature types: ";TYPE:x" (PrusaSlicer, OrcaSlicer, CuraEngine, ribvault), "; FEATURE: x" (Bambu Studio, OrcaSlicer),
-/// "; feature x" or "; x" alone (Simplify3D), "; x" after the move (Slic3r). Widths: ";WIDTH:", "; LINE_WIDTH:", ";
-/// tool H W". Heights: ";HEIGHT:",
-/// "; LAYER_HEIGHT:", "; tool H W". Settings: filament and nozzle diameters, layer heights, use_volumetric_e.
+/// "; feature x" or "; x" alone (Simplify3D), "; x" after the move (Slic3r). Widths: ";WIDTH:", "; LINE_WIDTH:",
+/// "; tool H W". Heights: ";HEIGHT:", "; LAYER_HEIGHT:", "; tool H W". Settings: filament and nozzle diameters, layer
+/// heights, use_volumetric_e.
 class GcodeComments {
 public:
     GcodeComments();

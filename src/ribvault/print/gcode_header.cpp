@@ -11,7 +11,11 @@
 namespace ribvault {
 namespace {
 
-bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string support_temperature(const PrinterSettings& p) {
+    return std::to_string(p.support_temperature > 0 ? p.support_temperature : p.nozzle_temperature);
+}
 
 /// "1h 2m 3s", as PrusaSlicer writes it.
 std::string duration(double seconds) {
@@ -27,6 +31,8 @@ std::string value_of(const std::string& name, const Settings& s, const PrinterSe
     const auto whole = [](double v) { return std::to_string(std::lround(v)); };
     if (name == "nozzle_temperature") return whole(p.nozzle_temperature);
     if (name == "bed_temperature") return whole(p.bed_temperature);
+    if (name == "support_temperature") return support_temperature(p);
+    if (name == "support_extruder") return std::to_string(p.support_extruder);
     if (name == "layer_height") return decimal_text(to_mm(s.layer_height));
     if (name == "first_layer_height") return decimal_text(to_mm(s.first_layer_height));
     if (name == "nozzle_diameter") return decimal_text(to_mm(s.nozzle));
@@ -122,9 +128,11 @@ void check_printer(const PrinterSettings& printer) {
     for (const auto& [name, speed] : {std::pair("print speed (mm/s)", printer.print_speed),
                                       {"support speed (mm/s)", printer.support_speed},
                                       {"first layer speed (mm/s)", printer.first_layer_speed},
+                                      {"slowest print speed (mm/s)", printer.min_print_speed},
                                       {"travel speed (mm/s)", printer.travel_speed},
                                       {"retraction speed (mm/s)", printer.retraction_speed}})
         need(name, speed, 0.1, 10000);
+    need("shortest time for a layer (s)", printer.min_layer_time, 0, 10000);
     need("retraction (mm)", printer.retraction, 0, 100);
     need("open air that retracts (mm)", printer.retract_over, 0, 1e6);
     need("longest detour (mm)", printer.longest_detour, 0, 1e6);
@@ -177,22 +185,25 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
     if (printer.flavour == Flavour::reprapfirmware) text += "T0\n";
     if (heats_bed) text += "M140 S" + bed + " ; heat the bed\n";
     if (heats_nozzle) text += "M104 S" + nozzle + " ; heat the nozzle\n";
-    const std::string tool =
-        "T" + std::to_string(printer.support_extruder) + " S" +
-        std::to_string(printer.support_temperature > 0 ? printer.support_temperature : printer.nozzle_temperature);
-    const bool heats_tool = printer.support_extruder > 0 && settings.outside() && heats_nozzle;
-    if (heats_tool) text += "M104 " + tool + " ; heat the nozzle of the supports\n";
+    const std::string tool = "T" + std::to_string(printer.support_extruder),
+                      heat_tool =
+                          "M104 " + tool + " S" + support_temperature(printer) + " ; heat the nozzle of the supports\n",
+                      wait_for_tool = "M109 " + tool + " S" + support_temperature(printer) + " ; wait for it\n";
+    const bool heats_tool = printer.support_extruder > 0 && settings.outside() &&
+                            (heats_nozzle || (!contains(start, "{support_temperature}") && !contains(start, tool)));
+    if (heats_tool && heats_nozzle) text += heat_tool;
     if (heats_bed) text += "M190 S" + bed + " ; wait for the bed\n";
     if (heats_nozzle) text += "M109 S" + nozzle + " ; wait for the nozzle\n";
-    if (heats_tool) text += "M109 " + tool + " ; wait for it\n";
+    if (heats_tool && heats_nozzle) text += wait_for_tool;
     if (printer.write_limits) text += limits_text(printer);
     text += fill_placeholders(start, "start_gcode", settings, printer, facts);
+    if (heats_tool && !heats_nozzle) text += heat_tool + wait_for_tool;
     text += "G21 ; millimetres\nG90 ; absolute coordinates\nM83 ; relative extrusion\n";
     if (printer.retraction == 0) return text;
     const std::string retract =
         "G1 E-" + decimal_text(printer.retraction) + " F" + decimal_text(printer.retraction_speed * 60);
     if (heats_tool)  // else start G-code does, and only that knows when it is hot
-        text += "T" + std::to_string(printer.support_extruder) + "\n" + retract + " ; so do the supports\nT0\n";
+        text += tool + "\n" + retract + " ; so do the supports\nT0\n";
     text += retract + " ; the first layer starts retracted\n";
     return text;
 }
@@ -201,11 +212,10 @@ std::string gcode_footer(const Settings& settings, const PrinterSettings& printe
     std::string text = "; end of print\n";
     if (printer.fan_percent > 0) text += "M107 ; fan off\n";
     const std::string& end = printer.end_gcode;
-    if (!contains(end, "M104")) {
-        text += "M104 S0 ; nozzle off\n";
-        if (printer.support_extruder > 0 && settings.outside())
-            text += "M104 T" + std::to_string(printer.support_extruder) + " S0 ; nozzle of the supports off\n";
-    }
+    const std::string tool = "T" + std::to_string(printer.support_extruder);
+    if (!contains(end, "M104")) text += "M104 S0 ; nozzle off\n";
+    if (printer.support_extruder > 0 && settings.outside() && !contains(end, tool))
+        text += "M104 " + tool + " S0 ; nozzle of the supports off\n";
     if (!contains(end, "M140") && printer.bed_temperature > 0) text += "M140 S0 ; bed off\n";
     text += fill_placeholders(end, "end_gcode", settings, printer, facts);
     if (!contains(end, "M84")) text += "M84 ; motors off\n";

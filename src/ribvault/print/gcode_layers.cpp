@@ -20,6 +20,25 @@ std::int64_t in_pm(Int128 z) { return static_cast<std::int64_t>(z / decimal_per_
 
 GcodePoint flat(const std::array<Decimal, 3>& p) { return {p[0], p[1]}; }
 
+/// Per feature: whether its height is its layer's, whatever the file says.
+std::vector<char> with_layers_height(const std::vector<GcodeFeature>& features) {
+    std::vector<char> chosen;
+    for (const GcodeFeature& f : features)
+        chosen.push_back(f.kind == FeatureKind::bridge || f.name.find("roning") != std::string::npos);
+    return chosen;
+}
+
+/// What heights of layers are usual, and from where on they are none.
+struct UsualHeight {
+    std::int64_t layer, tallest;
+    UsualHeight(const std::vector<std::int64_t>& distances, const LayerHints& hints) {
+        std::vector<std::int64_t> sorted = distances;
+        std::sort(sorted.begin(), sorted.end());
+        layer = hints.layer_height.value_or(sorted.empty() ? pm_per_mm / 5 : sorted[(sorted.size() - 1) / 2]);
+        tallest = 5 * std::max(2 * layer, static_cast<std::int64_t>(hints.nozzle.value_or(0) * pm_per_mm)) / 4;
+    }
+};
+
 }  // namespace
 
 /// The width, or minus the number (from 1) of the flow that it will be computed from.
@@ -158,19 +177,24 @@ void LayerCollector::merge_rounded() {
 
 void LayerCollector::resolve_heights(GcodePrint& print, const LayerHints& hints) {
     Groups resolved;
+    const std::vector<char> of_layer = with_layers_height(print.features);
+    std::vector<std::int64_t> all;  // distances of tops
+    for (std::int64_t lower = 0; const auto& [key, layer] : groups_)
+        if (const std::int64_t top = in_pm(key.z); top > lower) all.push_back(top - std::exchange(lower, top));
+    const UsualHeight heights(all, hints);
     std::vector<std::int64_t> distances;  // heights that are the distance to the next lower layer
-    std::int64_t lower = 0;  // top of the next lower z
+    std::int64_t lower = 0;               // top of the next lower z
     for (auto at = groups_.begin(); at != groups_.end();) {
         const Int128 z = at->first.z;
         const std::int64_t top = in_pm(z);
         auto end = at;
-        std::int64_t said = 0;  // the height of most tracks at this z, bridges apart
+        std::int64_t said = 0;  // the height of most tracks at this z, bridges and ironing apart
         std::size_t most = 0;
         for (; end != groups_.end() && end->first.z == z; ++end) {
             if (end->first.height == 0) continue;
-            const auto count = static_cast<std::size_t>(std::count_if(
-                end->second.tracks.begin(), end->second.tracks.end(),
-                [&](const GcodeTrack& t) { return print.features[t.feature].kind != FeatureKind::bridge; }));
+            const auto count =
+                static_cast<std::size_t>(std::count_if(end->second.tracks.begin(), end->second.tracks.end(),
+                                                       [&](const GcodeTrack& t) { return !of_layer[t.feature]; }));
             if (count > most) most = count, said = end->first.height;
         }
         std::int64_t usual = said;
@@ -178,13 +202,18 @@ void LayerCollector::resolve_heights(GcodePrint& print, const LayerHints& hints)
             usual = hints.first_layer_height.value_or(
                 top <= std::max(thick_first, 2 * hints.layer_height.value_or(top)) ? top : *hints.layer_height);
         if (usual == 0) distances.push_back(usual = top - lower);
+        // What reaches past lower tops, as combined infill does, has no air in it.
+        const auto is_air = [&](std::int64_t height) {
+            return !resolved.empty() && height > heights.tallest && height <= top - lower + in_pm(z_rounding);
+        };
+        if (is_air(usual)) usual = heights.layer, ++print.layers_over_air;
         if (usual <= 0) usual = hints.layer_height.value_or(pm_per_mm / 5);  // at or below the bed
         for (; at != end; ++at) {
             GcodeLayer& from = at->second;
             for (std::size_t k = 0; k < from.tracks.size(); ++k) {
                 const GcodeTrack& t = from.tracks[k];
-                const bool bridge = print.features[t.feature].kind == FeatureKind::bridge;
-                const std::int64_t height = bridge || at->first.height == 0 ? usual : at->first.height;
+                const bool is_said = !of_layer[t.feature] && at->first.height != 0;
+                const std::int64_t height = is_said && !is_air(at->first.height) ? at->first.height : usual;
                 GcodeLayer& to = resolved[{z, height}];
                 if (to.points.empty() || to.points.back() != from.points[t.a]) to.points.push_back(from.points[t.a]);
                 GcodeTrack moved = t;
@@ -219,7 +248,7 @@ void LayerCollector::resolve_widths(GcodePrint& print, GcodeLayer& layer, const 
         const Flow& flow = flows_[static_cast<std::size_t>(-t.width - 1)];
         const double diameter =
             hints.filaments[std::min(static_cast<std::size_t>(flow.tool), hints.filaments.size() - 1)];
-        const double area = flow.volumetric ? 1 : std::numbers::pi / 4 * diameter * diameter;
+        const double area = flow.volumetric || hints.volumetric ? 1 : std::numbers::pi / 4 * diameter * diameter;
         const double um = flow.length > 0 ? 1000 * flow.pushed * area / (flow.length * height) : 1;
         const double clamped = std::clamp(std::round(um), 1.0, static_cast<double>(widest) / 1000000);
         t.width = static_cast<std::int64_t>(clamped) * 1000000;

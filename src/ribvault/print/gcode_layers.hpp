@@ -27,7 +27,9 @@ struct Extrusion {
 /// What is not in the file's moves, for finish().
 struct LayerHints {
     std::optional<std::int64_t> layer_height, first_layer_height;  ///< 1e-9 mm
+    std::optional<double> nozzle;                                  ///< diameter of the widest, mm
     std::vector<double> filaments;                                 ///< diameters, mm, at least one; one a tool
+    bool volumetric = false;                                       ///< E is mm³ in all of the file
 };
 
 /// Layers come from where material is pushed out, not from comments: all level extrusions at one z are a layer, in
@@ -48,9 +50,12 @@ public:
 
     /// The layers by z and height, their widths, what is below each. The collector is empty afterwards.
     ///
-    /// Heights: as the file says, except for bridges, which it describes as round threads: theirs is their layer's.
-    /// Where it does not say: the distance to the next lower layer; for the lowest one the first layer's height that
-    /// the file names, else the distance to z = 0 unless that is more than 0.5 mm and two layer heights. When a file
+    /// Heights: as the file says, except for bridges, which it describes as round threads, and ironing, which it
+    /// describes by what it adds: theirs is their layer's. Where it does not say: the distance to the next lower layer;
+    /// for the lowest one the first layer's height that the file names, else the distance to z = 0 unless that is more
+    /// than 0.5 mm and two layer heights. A distance, or a height in the file that is one, of more than 1.25 times two
+    /// layers or the nozzle is no height: slicers do not say that there is air. Such a layer has the height that the
+    /// file or the option names, else the median of all, and air below it. When a file
     /// says no heights at all, tops up to 0.005 mm over another are one layer with it. Widths that the file does not
     /// say: pushed volume over length times height, the rectangle of the same cross-section, to 1 µm: narrower than the
     /// round-edged track that is printed by 0.21 times the height. Volumes of stretches below 0.25 mm are pooled, as E

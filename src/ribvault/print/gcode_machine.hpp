@@ -31,8 +31,6 @@ public:
     /// Obeys one line. What is wrong with it, or empty; `motion.kind` is none when nothing moves and nothing is pushed.
     std::string apply(const GcodeWords& words, GcodeMotion& motion);
 
-    int tool() const { return tool_; }
-
 private:
     std::string move(const GcodeWords& w, GcodeMotion& motion);
     std::string find_centre(const GcodeWords& w, GcodeMotion& motion) const;

@@ -64,6 +64,7 @@ struct GcodePrint {
     /// Of the layers whose height is the distance to the next lower one: those at most half as high as both beside
     /// them.
     int thin_layers = 0;
+    int layers_over_air = 0;  ///< of those above that: nothing is so far below them that they cannot be as high
     std::uint64_t widths_written = 0, widths_computed = 0;  ///< tracks whose width stands in a comment; comes from E
 };
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <numbers>
 #include <string>
-#include <string_view>
 
 #include "ribvault/settings.hpp"
 

@@ -1,6 +1,7 @@
 #include "ribvault/print/gcode_words.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace ribvault {
 namespace {
@@ -52,6 +53,22 @@ bool begins_with_obeyed(std::string_view text) {
     const char letter = upper(text.front());
     text.remove_prefix(1);
     return is_obeyed(letter, scan_code(text));
+}
+
+/// Does one of the words that follow begin a command that is obeyed?
+bool holds_obeyed(std::string_view text) {
+    for (std::size_t n = 0; n < text.size(); ++n)
+        if ((n == 0 || !is_letter(upper(text[n - 1]))) && begins_with_obeyed(text.substr(n))) return true;
+    return false;
+}
+
+/// Commands whose words are numbers, none of which is read: after these words another command may follow. Others have
+/// text behind them (M117).
+bool has_numbers(const GcodeWords& w) {
+    if (w.letter == 'G') return w.code == 4 || w.code == 10 || w.code == 11;
+    constexpr std::array<int, 24> codes{18,  84,  73,  74,  104, 105, 106, 107, 108, 109, 140, 141,
+                                        190, 191, 201, 203, 204, 205, 220, 221, 400, 572, 593, 900};
+    return w.letter == 'M' && std::find(codes.begin(), codes.end(), w.code) != codes.end();
 }
 
 /// X10, X 10 or X10Y5, but not X10_HOME.
@@ -116,15 +133,26 @@ std::string scan_line(std::string_view line, GcodeWords& w) {
     const std::size_t semicolon = line.find(';');
     w.comment = semicolon == std::string_view::npos ? std::string_view{} : line.substr(semicolon + 1);
     std::string_view text = line.substr(0, semicolon);
+    // "(a; b) G1 X1": whether the remark ends at the bracket or at the end of the line, printers see differently.
+    if (const std::size_t close = w.comment.find(')');
+        close != std::string_view::npos && text.rfind('(') != std::string_view::npos &&
+        text.find(')', text.rfind('(')) == std::string_view::npos && begins_with_obeyed(w.comment.substr(close + 1)))
+        return "a semicolon in a remark in parentheses, and a command behind it; expected one or the other";
     skip_blanks(text);
     if (text.empty()) return {};
-    if (upper(text.front()) == 'N' && text.size() > 1 && is_digit(text[1])) {  // line number
-        text.remove_prefix(1);
-        scan_code(text);
-        skip_blanks(text);
-        if (text.empty()) return {};
+    if (upper(text.front()) == 'N') {  // line number
+        std::string_view after = text.substr(1);
+        skip_blanks(after);
+        if (scan_code(after) >= 0) {
+            text = after;
+            skip_blanks(text);
+            if (text.empty()) return {};
+        }
     }
     const char letter = upper(text.front());
+    // A byte that is no letter, or a remark that a semicolon ends: some printers print what follows, others do not.
+    if (!is_letter(letter) && holds_obeyed(text.substr(1)))
+        return quoted_text(text) + " has a command that does not begin the line; expected each on a line of its own";
     if (begins_with_coordinate(text))
         return quoted_text(text) + " moves without a command; expected G0 to G3 before it on each line";
     if (letter != 'G' && letter != 'M' && letter != 'T') return {};
@@ -138,6 +166,7 @@ std::string scan_line(std::string_view line, GcodeWords& w) {
         w.subcode = std::max(0, scan_code(rest));
     }
     if (is_mode(w) && begins_with_obeyed(rest)) return second_command;
+    if (!is_read(w) && has_numbers(w) && holds_obeyed(rest)) return second_command;
     return is_read(w) ? scan_words(rest, w) : std::string{};
 }
 

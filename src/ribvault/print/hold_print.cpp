@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/exact/point_location.hpp"
@@ -13,6 +15,7 @@
 #include "ribvault/print/place_dot.hpp"
 #include "ribvault/print/printed_tracks.hpp"
 #include "ribvault/print/support_paths.hpp"
+#include "ribvault/verify/outside_outline.hpp"
 
 namespace ribvault {
 namespace {
@@ -21,31 +24,6 @@ constexpr int rounds = 6;  ///< of mending, each of which is followed by another
 
 Lane lane_of(const PrintedTrack& track) {
     return {place_of(track, {0, 0, HUGE_VAL}), round_to_lattice(track.width.get_d() * units_per_mm)};
-}
-
-/// Walls that end at strips of the shell in which nothing is printed (print/gap_strips.hpp, or narrower than d / 2) go
-/// on through them until they overlap the next track by d / 4, as slicers let their infill overlap perimeters.
-void reach_shell(const LayerPlan& shell, const Settings& settings, SupportForest& forest) {
-    LayerPlan object;  // without the tracks of walls of several lines
-    for (const PlannedTrack& track : shell.tracks)
-        if (!is_support(track.paths.front().kind)) object.tracks.push_back(track);
-    const PlanTracks tracks(object);
-    if (tracks.segments().empty()) return;
-    const auto d = static_cast<double>(settings.nozzle);
-    for (std::size_t v = 0, before = num_vertices(forest); v < before; ++v) {
-        const SupportVertex root = forest[v];
-        if (!root.root || root.free || root.outside || out_degree(v, forest) != 1) continue;
-        const NearestSegment::Hit hit = tracks.segments().nearest(root.at);
-        const PlanTracks::Place place = tracks.place(hit.index);
-        const double half = static_cast<double>(object.tracks[place.track].paths[place.path].width) / 2,
-                     wanted = half + d / 4, far = std::sqrt(hit.distance.value());
-        if (far <= wanted + d / 40 || far > half + 2 * d) continue;
-        const Point end =
-            part_way(nearest_point(root.at, tracks.segments().segments()[hit.index]), root.at, wanted / far);
-        const auto w = add_vertex(root, forest);
-        forest[w].at = end, forest[v].root = false;
-        add_edge(v, w, forest);
-    }
 }
 
 /// Without its isolated roots, which hold up the last stub of a wall above: they are printed where something hangs
@@ -79,7 +57,7 @@ public:
 
     HeldLayer run() {
         if (above_ && !shell_.spare.empty()) print_strips_under(seem_to_hang(), settings_.nozzle, shell_);
-        reach_shell(shell_, settings_, forest_);
+        reach_over_strips(shell_, settings_.nozzle, forest_);
         lay_supports();
         if (!above_) return std::move(held_);
         judge();
@@ -107,7 +85,7 @@ private:
     struct Hanging {
         const PrintedTrack* track;
         OpenStretch stretch;
-        bool over_gap;
+        bool over_gap, inside;
         Segment place() const { return place_of(*track, stretch); }
         HangingStretch hanging() const {
             return {lane_of(*track), stretch.from_mm * units_per_mm, stretch.to_mm * units_per_mm};
@@ -115,23 +93,30 @@ private:
     };
 
     void judge() {
-        const bool apart = settings_.outside() && settings_.support_gap_layers > 0;
-        std::vector<PrintedTrack> supports, object;
-        if (apart || settings_.bed_only)
-            for (const PrintedTrack& track : above_->tracks)
-                (is_external_support(track) ? supports : object).push_back(track);
-        if (apart)
-            add_part(std::move(object), {}, false);
-        else
-            held_.parts.push_back({nullptr, PrintJudgement(*above_, *held_.printed, settings_)});
-        if (!supports.empty())
-            add_part(std::move(supports), [&settings = settings_](const PrintedLayer& below) {
-                if (!settings.bed_only) return counted_below(below.tracks, settings);
-                std::vector<PrintedTrack> holding;
-                std::copy_if(below.tracks.begin(), below.tracks.end(), std::back_inserter(holding),
-                             is_external_support);
-                return holding;
-            }, false);
+        const bool through_gap = settings_.outside() && settings_.support_gap_layers > 0;
+        std::vector<PrintedTrack> supports;
+        if (through_gap || settings_.bed_only)
+            std::copy_if(above_->tracks.begin(), above_->tracks.end(), std::back_inserter(supports),
+                         is_external_support);
+        held_.parts.push_back({nullptr, PrintJudgement(*above_, *held_.printed, settings_)});
+        held_.parts.back().inside = settings_.outside_apart();
+        const auto widened = [&settings = settings_](const PrintedLayer& below) {
+            return counted_below(below.tracks, settings);
+        };
+        if (settings_.outside_apart() && !through_gap)
+            if (std::vector<PrintedTrack> outside = extruded_outside(*above_, *held_.printed); !outside.empty())
+                add_part(std::move(outside), widened, false);
+        if (!supports.empty() && !settings_.bed_only) add_part(std::move(supports), widened, false);
+        if (!supports.empty() && settings_.bed_only)
+            add_part(
+                std::move(supports),
+                [](const PrintedLayer& below) {
+                    std::vector<PrintedTrack> holding;
+                    std::copy_if(below.tracks.begin(), below.tracks.end(), std::back_inserter(holding),
+                                 is_external_support);
+                    return holding;
+                },
+                false);
         if (over_gap_ && !over_gap_->hanging->tracks.empty())
             add_part(
                 over_gap_->hanging->tracks,
@@ -145,8 +130,7 @@ private:
     void add_part(std::vector<PrintedTrack> tracks, PrintJudgement::Holding holding, bool over_gap) {
         auto layer = std::make_shared<PrintedLayer>();
         layer->tracks = std::move(tracks);
-        PrintJudgement judgement = holding ? PrintJudgement(*layer, *held_.printed, settings_, std::move(holding))
-                                           : PrintJudgement(*layer, *held_.printed, settings_);
+        PrintJudgement judgement(*layer, *held_.printed, settings_, std::move(holding));
         held_.parts.push_back({std::move(layer), std::move(judgement), over_gap});
     }
 
@@ -158,7 +142,6 @@ private:
     }
 
     void look_again() {
-        held_.mended = true;
         for (PrintPart& part : held_.parts) part.judgement.change_below(*held_.printed);
     }
 
@@ -186,10 +169,10 @@ private:
     /// What of the layer above inside the outline is not held up.
     std::vector<Hanging> open() const {
         std::vector<Hanging> all;
-        for (const PrintPart& part : held_.parts) append_open(part.judgement, part.over_gap, all);
+        for (const PrintPart& part : held_.parts) append_open(part.judgement, part.over_gap, part.inside, all);
         return all;
     }
-    static void append_open(const PrintJudgement& judgement, bool over_gap, std::vector<Hanging>& all) {
+    static void append_open(const PrintJudgement& judgement, bool over_gap, bool inside, std::vector<Hanging>& all) {
         const std::vector<PrintedTrack>& tracks = judgement.above().tracks;
         std::vector<OpenStretch> stretches = judgement.open();
         // A track that is found wanting without a stretch that shows where is mended as a whole.
@@ -203,7 +186,7 @@ private:
         }
         std::stable_sort(stretches.begin(), stretches.end(),
                          [](const OpenStretch& a, const OpenStretch& b) { return a.track < b.track; });
-        for (const OpenStretch& stretch : stretches) all.push_back({&tracks[stretch.track], stretch, over_gap});
+        for (const OpenStretch& stretch : stretches) all.push_back({&tracks[stretch.track], stretch, over_gap, inside});
     }
 
     /// Branches whose gap may be what lets something hang reach their junction from now on. How many walls are new.
@@ -286,14 +269,11 @@ private:
     /// The tracks and patches that come near a stretch; the object's are `wider` by what it holds up farther than ρ.
     std::vector<Lane> material_near(const Segment& stretch, Unit wider = 0) const {
         const Unit reach = 2 * settings_.nozzle + 2 * settings_.support_radius + wider;
-        Box box;
-        box.add(stretch.a), box.add(stretch.b);
-        box.grow(reach);
         std::vector<Lane> lanes;
         const auto add = [&](const Segment& centre, Unit width, TrackKind kind) {
             lanes.push_back({centre, kind == TrackKind::external_support ? width : width + wider});
         };
-        tracks_->segments().visit(box, [&](std::uint32_t k) {
+        tracks_->segments().visit(bounding_box(stretch, reach), [&](std::uint32_t k) {
             const PlanTracks::Place place = tracks_->place(k);
             const ToolPath& path = without_patches_.tracks[place.track].paths[place.path];
             add(tracks_->segments().segments()[k], path.width, path.kind);
@@ -304,9 +284,10 @@ private:
         return lanes;
     }
 
-    /// The dot under a stretch that is nearest to what is there, where that may be asked for: not with a removal gap.
+    /// The dot under a stretch that is nearest to what is there, where that may be asked for: with a removal gap inside
+    /// the outline only.
     std::optional<PlacedDot> place(const Hanging& hanging) const {
-        if (gap_patches_) return std::nullopt;
+        if (gap_patches_ && !hanging.inside) return std::nullopt;
         return place_dot(hanging.hanging(), material_near(hanging.place()), settings_.nozzle, settings_.support_radius);
     }
 
@@ -323,16 +304,9 @@ private:
     /// Of the patches from `before` on, those that were there already. Each would be a track of its own, to be held up
     /// farther down.
     void drop_repeated(std::size_t before) {
-        std::size_t kept = before;
-        for (std::size_t k = before; k < patches_.size(); ++k) {
-            const Patch patch = patches_[k];
-            const auto same = [&](const Patch& p) {
-                return p.kind == patch.kind && p.segment.a == patch.segment.a && p.segment.b == patch.segment.b;
-            };
-            if (std::none_of(patches_.begin(), patches_.begin() + static_cast<std::ptrdiff_t>(kept), same))
-                patches_[kept++] = patch;
-        }
-        patches_.resize(kept);
+        const auto there = [&](const Patch& p) { return !laid_.insert({p.kind, p.segment.a, p.segment.b}).second; };
+        patches_.erase(std::remove_if(patches_.begin() + static_cast<std::ptrdiff_t>(before), patches_.end(), there),
+                       patches_.end());
     }
 
     void add_patches(const std::vector<Hanging>& open, int round) {
@@ -346,7 +320,9 @@ private:
             const std::optional<Segment> place = place_under(hanging, round, before);
             if (!place) continue;
             const bool outside = outline.locate(place->a) == Side::outside || outline.locate(place->b) == Side::outside;
-            if (outside && may_stand_outside(*place)) {
+            if (hanging.inside && !outside) {
+                patches_.push_back({*place, TrackKind::support});
+            } else if (outside && may_stand_outside(*place)) {
                 patches_.push_back({*place, TrackKind::external_support});
             } else if (gap_patches_ && patch_at_gap(hanging, round >= rounds / 2)) {
                 continue;
@@ -416,7 +392,7 @@ private:
             return counted_below(below.tracks, settings_);
         });
         std::vector<Hanging> hanging;
-        append_open(judgement, false, hanging);
+        append_open(judgement, false, false, hanging);
         if (hanging.empty()) return;
         begin_patches();
         const std::size_t before = patches_.size();
@@ -442,6 +418,7 @@ private:
     LayerPlan without_patches_;         ///< once there are patches
     std::optional<PlanTracks> tracks_;  ///< of it
     std::vector<Patch> patches_;
+    std::set<std::tuple<TrackKind, Point, Point>> laid_;  ///< the same
     std::optional<GapPatches> gap_patches_;  ///< with a removal gap, once there are patches
     std::vector<Point> tried_;
 };

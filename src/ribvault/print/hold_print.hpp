@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "ribvault/print/judge_print.hpp"
@@ -25,14 +24,14 @@ struct PrintPart {
     std::shared_ptr<const PrintedLayer> above;  ///< what `judgement` is of, where it is not all of the layer above
     PrintJudgement judgement;
     bool over_gap = false;  ///< it is of what hangs over a gap
+    bool inside = false;    ///< it is of what lies inside the outline alone (settings.outside_apart())
 };
 
 /// A layer that has another one on it.
 struct HeldLayer {
     LayerPlan plan;
     std::shared_ptr<const PrintedLayer> printed;  ///< the plan's extrusions
-    std::vector<PrintPart> parts; ///< what was judged over `printed`; nothing when there is no layer above
-    bool mended = false;        ///< something was changed after the whole layer above had been looked at
+    std::vector<PrintPart> parts;  ///< what was judged over `printed`; nothing when there is no layer above
     int closed_gaps = 0;        ///< branches printed up to their junction because the gap would have let something hang
     int patches = 0;            ///< short tracks added where closing gaps was not enough
     Unit patch_length = 0;      ///< length of track that patches add, lattice units; dots count as none
@@ -58,10 +57,11 @@ struct HeldLayer {
 /// outline. Deterministic.
 ///
 /// With external supports (settings.outside()) all of `above` counts, inside the outline or not, and patches may lie
-/// outside it, where `outside` (slice/outside.hpp) lets walls stand. Where they stand on the bed alone, or leave a gap
-/// of layers, external supports are judged over what may hold them up; with a gap, what hangs over `over_gap` counts in
-/// place of what hangs over this layer. `walls_below_gap`: where supports may stand that hold up through the gap what
-/// hangs over this layer (nullptr: not known): what they can reach needs no patches here.
+/// outside it, where `outside` (slice/outside.hpp) lets walls stand. With a removal gap the object holds up more
+/// outside the outline than inside (Settings::reach_of_object), so the two are judged apart. Where they stand on the
+/// bed alone, or leave a gap of layers, external supports are judged over what may hold them up; with a gap, what hangs
+/// over `over_gap` counts in place of what hangs over this layer. `walls_below_gap`: where supports may stand that hold
+/// up through the gap what hangs over this layer (nullptr: not known): what they can reach needs no patches here.
 HeldLayer hold_print(LayerPlan shell, const SupportForest& forest, const PrintedLayer* above, const Settings& settings,
                      const Cavity* outside = nullptr, const PrintOverGap* over_gap = nullptr,
                      const Region* walls_below_gap = nullptr);

@@ -196,6 +196,9 @@ const std::map<std::string, Field>& fields() {
             {"perimeter_speed", speed(&P::print_speed)},
             {"infill_speed", speed(&P::support_speed)},
             {"first_layer_speed", speed(&P::first_layer_speed)},
+            {"slowdown_below_layer_time", printer_number(&P::min_layer_time)},
+            {"min_print_speed", speed(&P::min_print_speed)},
+            {"cooling", [](Target, const std::string& v) { whole(v); }},  // with the time, below
             {"travel_speed", speed(&P::travel_speed)},
             {"retract_length", printer_number(&P::retraction)},
             {"retract_speed", printer_number(&P::retraction_speed)},
@@ -299,6 +302,8 @@ ImportedConfig import_prusaslicer(std::string_view text, const std::string& name
         if (key != "nozzle_diameter") take(key, entry);
     if (const auto brim = last.find("brim_type"); brim != last.end() && brim->second.value == "no_brim")
         tracks.brim_width = 0;
+    if (const auto cooling = last.find("cooling"); cooling != last.end() && whole(cooling->second.value) == 0)
+        printer.min_layer_time = 0;
     if (imported.taken.empty())
         throw Error(ErrorKind::usage, name + ": no setting that we know; is it a PrusaSlicer config or bundle?");
     printer.name = "imported from PrusaSlicer";

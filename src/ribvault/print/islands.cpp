@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "ribvault/exact/predicates.hpp"
+
 namespace ribvault {
 namespace {
 
@@ -11,8 +13,8 @@ bool contains(const Contour& contour, Point p) {
     for (std::size_t i = 0, n = contour.size(), j = n - 1; i < n; j = i++) {
         const Point a = contour[j], b = contour[i];
         if ((a.y > p.y) == (b.y > p.y)) continue;
-        const Unit cross = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);  // fits: lattice_bound
-        if ((cross > 0) == (b.y > a.y) && cross != 0) inside = !inside;
+        const int side = orientation(a, b, p);
+        if ((side > 0) == (b.y > a.y) && side != 0) inside = !inside;
     }
     return inside;
 }

@@ -1,6 +1,7 @@
 #include "ribvault/print/judge_print.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 
@@ -87,7 +88,7 @@ Segment place_of(const PrintedTrack& track, const OpenStretch& stretch) {
 
 PrintJudgement::PrintJudgement(const PrintedLayer& above, const PrintedLayer& below, const Settings& settings)
     : above_(&above), below_(&below), settings_(&settings) {
-    if (!settings.outside() || settings.support_gap_layers > 0) outside_ = stretches_outside(above, below);
+    if (!settings.outside() || settings.outside_apart()) outside_ = stretches_outside(above, below);
     look_at_all();
 }
 
@@ -124,7 +125,7 @@ void PrintJudgement::change_below(const PrintedLayer& below) {
 
 std::vector<PrintedTrack> PrintJudgement::material_below() const {
     if (holding_) return holding_(*below_);
-    std::vector<PrintedTrack> lower = counted_below(below_->tracks, *settings_);
+    std::vector<PrintedTrack> lower = below_->tracks;
     lower.insert(lower.end(), outside_.begin(), outside_.end());
     return lower;
 }
@@ -164,19 +165,15 @@ PrintVerdict PrintJudgement::verdict() const {
         const Segment place = place_of(above_->tracks[open_.front().track], open_.front());
         verdict.place = {to_mm((place.a.x + place.b.x) / 2), to_mm((place.a.y + place.b.y) / 2)};
     }
-    const auto external = [&](const PrintedLayer& upper) {
+    if (holding_ || settings_->support_gap_layers > 0) return verdict;
+    if (!outside_.empty()) {
+        PrintedLayer upper;
+        upper.tracks = outside_;
         PrintedOptions options;
         options.areas = options.regions = false;
         const PrintedVerdict hangs = verify_printed(upper, *below_, printed_length(settings_->support_radius), options);
         verdict.external_mm = sum(hangs.unsupported_length);
         verdict.stages += hangs.stages;
-    };
-    if (holding_ || settings_->support_gap_layers > 0) return verdict;
-    if (settings_->outside() && settings_->reach_of_object() > settings_->support_radius) external(*above_);
-    if (!outside_.empty()) {
-        PrintedLayer upper;
-        upper.tracks = outside_;
-        external(upper);
     }
     return verdict;
 }

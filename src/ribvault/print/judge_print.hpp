@@ -11,9 +11,9 @@
 namespace ribvault {
 
 /// What of `above`, the print of layer i + 1, the print of layer i holds up, decided exactly and for all of it. Without
-/// external supports `above` outside the outline of the layer below is not judged by `open`
-/// (verify/outside_outline.hpp); with such that leave a gap of layers it is not judged either, for it is held up
-/// farther down.
+/// external supports `above` outside the outline of the layer below is not judged (verify/outside_outline.hpp); with
+/// such that stand off it is not judged either, for there the object holds up more than what is within ρ of it, or what
+/// holds up lies farther down (settings.outside_apart()).
 ///
 /// A change of the layer below needs no look at all of `above`: whether a track is held up depends on nothing but the
 /// tracks below that come within half its width + ρ of its centre line. When those are the same as before, so is the
@@ -33,9 +33,8 @@ public:
     const std::vector<OpenStretch>& open() const { return open_; }
     bool supported(std::size_t track) const { return supported_[track] != 0; }
 
-    /// The verdict on all of `above`. With external supports all of it must be held up, and nothing is told apart as
-    /// external; with a removal gap the object's tracks hold up what is within settings.reach_of_object() of them, and
-    /// external_mm is what is farther than ρ.
+    /// The verdict. With external supports that do not stand off all of `above` must be held up, and nothing is told
+    /// apart as external; otherwise external_mm is what outside the outline is farther than ρ.
     PrintVerdict verdict() const;
 
     const PrintedLayer& above() const { return *above_; }

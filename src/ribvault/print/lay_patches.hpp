@@ -40,8 +40,7 @@ private:
 /// * beyond the open end of a track, which goes on to the dot, unless the track must begin there (Entry::fixed);
 /// * beside a support, which goes to the dot and back on its way (a spur);
 /// * beside another track: a track of its own from there to the dot (ToolPath::on_track, unless it leaves a narrower
-/// strip, where its
-///   rounded end needs filament too).
+///   strip, where its rounded end needs filament too).
 /// Where what leads to an earlier dot is nearer, it goes on to this one too.
 /// Where the way is longer than a dot is worth, or one of external supports leads where `open` says they must not, it
 /// stays a dot. Returns the length of track that the patches add, dots as none. Steps are at least shortest_step long.

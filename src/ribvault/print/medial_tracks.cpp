@@ -59,18 +59,7 @@ double distance(Position p, const BoostSegment& s) {
     return std::hypot(tx - t * dx, ty - t * dy);
 }
 
-bool inside(const SegmentRows& border, Position p) {
-    int winding = 0;
-    const auto row = static_cast<Unit>(std::floor(p.y));
-    border.any(row, row, [&](const Segment& s) {
-        const auto ay = static_cast<double>(s.a.y), by = static_cast<double>(s.b.y);
-        if ((ay <= p.y) == (by <= p.y)) return false;
-        const double x = static_cast<double>(s.a.x) + (p.y - ay) * static_cast<double>(s.b.x - s.a.x) / (by - ay);
-        if (x > p.x) winding += by > ay ? 1 : -1;
-        return false;
-    });
-    return winding != 0;
-}
+bool inside(const SegmentRows& border, Position p) { return border.winding(p.x, p.y) != 0; }
 
 /// The medial axis as a graph; nodes carry their distance to the border.
 struct Axis {

@@ -9,13 +9,6 @@ namespace {
 
 constexpr std::int64_t arc_bound = static_cast<std::int64_t>(arc_bound_mm * 1e9);  // 1e-9 mm
 
-/// 1e-9 mm as mm, exactly.
-Rational in_mm(std::int64_t value) {
-    Rational mm(mpz_class(static_cast<long>(value)), 1000000000L);
-    mm.canonicalize();
-    return mm;
-}
-
 Millimetres to_mm(Decimal d) {
     constexpr std::int64_t picometre = decimal_one / Millimetres::picometres_per_mm;
     if (d.value % picometre == 0)
@@ -39,41 +32,45 @@ void append(const GcodeLayer& layer, const std::vector<char>& outline, std::int6
 }  // namespace
 
 PrintedLayer layer_above(const GcodePrint& print, std::size_t entry) {
-    const GcodeLayer& layer = print.layers[entry];
-    PrintedLayer above{to_rational(layer.z), in_mm(layer.height), {}};
-    append(layer, {}, 2 * arc_bound, above);
+    PrintedLayer above;
+    append(print.layers[entry], {}, 2 * arc_bound, above);
     return above;
 }
 
 PrintedLayer layer_below(const GcodePrint& print, std::size_t entry) {
-    PrintedLayer material{to_rational(print.layers[entry].z), {}, {}};
+    PrintedLayer material;
     append(print.layers[entry], {}, -2 * arc_bound, material);
     return material;
 }
 
 PrintedLayer material_below(const GcodePrint& print, std::size_t entry) {
-    const GcodeLayer& layer = print.layers[entry];
-    PrintedLayer material{to_rational(layer.z) - in_mm(layer.height), {}, {}};
-    for (const std::size_t k : layer.below)
+    PrintedLayer material;
+    for (const std::size_t k : print.layers[entry].below)
         append(print.layers[k], outline_tracks(print, print.layers[k]), -2 * arc_bound, material);
     return material;
 }
 
 std::vector<char> outline_tracks(const GcodePrint& print, const GcodeLayer& layer) {
-    std::vector<char> outer;
+    std::vector<char> outer, overhang;  // OrcaSlicer names what of a wall hangs apart
     for (const GcodeFeature& feature : print.features) {
         std::string name = feature.name;
         std::transform(name.begin(), name.end(), name.begin(),
                        [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
         outer.push_back(name == "external perimeter" || name == "outer wall" || name == "wall-outer" ||
                         name == "outer perimeter");
+        overhang.push_back(name.starts_with("overhang"));
     }
     std::vector<char> result(layer.tracks.size(), 0);
     const std::vector<GcodeTrack>& tracks = layer.tracks;
     for (std::size_t k = 0; k < tracks.size();) {
         std::size_t end = k + 1;
-        while (end < tracks.size() && tracks[end].continues && tracks[end].feature == tracks[k].feature) ++end;
-        if (outer[tracks[k].feature] && end - k > 2 && layer.points[tracks[k].a] == layer.points[tracks[end - 1].b])
+        const auto of_wall = [&](std::size_t t) { return outer[tracks[t].feature] || overhang[tracks[t].feature]; };
+        bool is_outer = outer[tracks[k].feature];
+        for (; end < tracks.size() && tracks[end].continues; ++end) {
+            if (tracks[end].feature != tracks[k].feature && !(of_wall(k) && of_wall(end))) break;
+            is_outer = is_outer || outer[tracks[end].feature];
+        }
+        if (is_outer && end - k > 2 && layer.points[tracks[k].a] == layer.points[tracks[end - 1].b])
             std::fill(result.begin() + static_cast<std::ptrdiff_t>(k),
                       result.begin() + static_cast<std::ptrdiff_t>(end), 1);
         k = end;

@@ -67,10 +67,14 @@ const std::map<std::string, Setter>& keys() {
          }},
         {"flavour",
          [](P& p, const std::string& v) {
-             if (v == "marlin") p.flavour = Flavour::marlin;
-             else if (v == "klipper") p.flavour = Flavour::klipper;
-             else if (v == "reprapfirmware") p.flavour = Flavour::reprapfirmware;
-             else throw Error(ErrorKind::usage, "'" + v + "' is none of marlin, klipper, reprapfirmware");
+             if (v == "marlin")
+                 p.flavour = Flavour::marlin;
+             else if (v == "klipper")
+                 p.flavour = Flavour::klipper;
+             else if (v == "reprapfirmware")
+                 p.flavour = Flavour::reprapfirmware;
+             else
+                 throw Error(ErrorKind::usage, "'" + v + "' is none of marlin, klipper, reprapfirmware");
          }},
         {"bed",
          [](P& p, const std::string& v) {
@@ -88,6 +92,8 @@ const std::map<std::string, Setter>& keys() {
         {"print_speed", decimal(&P::print_speed)},
         {"support_speed", decimal(&P::support_speed)},
         {"first_layer_speed", decimal(&P::first_layer_speed)},
+        {"min_layer_time", decimal(&P::min_layer_time)},
+        {"min_print_speed", decimal(&P::min_print_speed)},
         {"travel_speed", decimal(&P::travel_speed)},
         {"retraction", decimal(&P::retraction)},
         {"retraction_speed", decimal(&P::retraction_speed)},

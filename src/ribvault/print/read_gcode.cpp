@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ribvault/error.hpp"
+#include "ribvault/input_stream.hpp"
 #include "ribvault/print/gcode_arcs.hpp"
 #include "ribvault/print/gcode_comments.hpp"
 #include "ribvault/print/gcode_layers.hpp"
@@ -64,7 +65,10 @@ public:
         print_.program = comments_.program;
         print_.nozzles = comments_.nozzles;
         print_.filaments = comments_.filaments;
-        LayerHints hints{comments_.layer_height, comments_.first_layer_height, comments_.filaments};
+        LayerHints hints{
+            comments_.layer_height, comments_.first_layer_height, {}, comments_.filaments, comments_.volumetric};
+        if (!comments_.nozzles.empty())
+            hints.nozzle = *std::max_element(comments_.nozzles.begin(), comments_.nozzles.end());
         if (options_.filament_diameter) hints.filaments = {*options_.filament_diameter};
         if (hints.filaments.empty()) hints.filaments = {usual_filament};
         if (!hints.layer_height && options_.layer_height)
@@ -130,7 +134,6 @@ private:
         if (const std::string wrong = machine_.apply(words_, motion_); !wrong.empty()) fail_line(wrong);
         if (motion_.kind == GcodeMotion::Kind::none) return;
         ++motions_;
-        motion_.volumetric = motion_.volumetric || comments_.volumetric;
         if (!words_.comment.empty()) comments_.read_behind_move(words_.comment);
         move();
     }
@@ -195,14 +198,14 @@ private:
             collector_.extrude(e);
     }
 
-    /// Retraction, priming, or a dot: what is pushed at rest while nothing is retracted.
+    /// Retraction, priming, or, in ribvault's files, a dot: what is pushed at rest while nothing is retracted.
     void push_at_rest() {
         const bool primes = std::exchange(retracted_, motion_.pushed < 0);
         if (motion_.pushed < 0 || primes || motion_.moves_up()) {
             collector_.end_path();
             return;
         }
-        if (!(options_.dots || comments_.flavour == GcodeFlavour::ribvault) || !comments_.width) return;
+        if (comments_.flavour != GcodeFlavour::ribvault || !comments_.width) return;
         collector_.end_path();
         extrude(extrusion());
         collector_.end_path();
@@ -231,15 +234,7 @@ GcodePrint read_gcode(std::string_view text, const std::string& name, const Gcod
 }
 
 GcodePrint read_gcode(const std::filesystem::path& file, const GcodeOptions& options) {
-    const auto refuse = [&](const std::string& what, const std::string& remedy) {
-        throw Error(ErrorKind::unreadable, file.string() + ": " + what + "; " + remedy);
-    };
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(file, error);
-    if (!std::filesystem::exists(status)) refuse("there is no such file", "check the path");
-    if (std::filesystem::is_directory(status)) refuse("is a folder, not a G-code file", "name the file in it");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) refuse(std::string("cannot be opened (") + std::strerror(errno) + ")", "check its permissions");
+    std::ifstream stream = open_input(file, "G-code");
     Reader reader(file.string(), options);
     std::string block(block_size, '\0');
     while (stream) {
@@ -247,7 +242,7 @@ GcodePrint read_gcode(const std::filesystem::path& file, const GcodeOptions& opt
         if (stream.gcount() > 0)
             reader.feed(std::string_view(block).substr(0, static_cast<std::size_t>(stream.gcount())));
     }
-    if (stream.bad()) refuse("reading failed", "copy the file to a local disk and try again");
+    check_read(stream, file);
     return reader.finish();
 }
 

@@ -12,7 +12,6 @@ namespace ribvault {
 struct GcodeOptions {
     std::optional<double> filament_diameter;    ///< mm; instead of what the file says (1.75 where neither does)
     std::optional<double> layer_height;         ///< mm; where the file does not say
-    bool dots = false;  ///< read filament pushed at rest as dots, in every file; ribvault's always are
 };
 
 /// Reads PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio, CuraEngine, Slic3r, Simplify3D, ribvault and plain G-code.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "ribvault/exact/lattice.hpp"
@@ -41,6 +42,20 @@ public:
             for (const Segment& s : rows_[static_cast<std::size_t>(row)])
                 if (visit(s)) return true;
         return false;
+    }
+
+    /// How often contours whose edges the segments are wind around a place; rounded at edges.
+    int winding(double x, double y) const {
+        int times = 0;
+        const auto row = static_cast<Unit>(std::floor(y));
+        any(row, row, [&](const Segment& s) {
+            const auto ay = static_cast<double>(s.a.y), by = static_cast<double>(s.b.y);
+            if ((ay <= y) == (by <= y)) return false;
+            const double at = static_cast<double>(s.a.x) + (y - ay) * static_cast<double>(s.b.x - s.a.x) / (by - ay);
+            if (at > x) times += by > ay ? 1 : -1;
+            return false;
+        });
+        return times;
     }
 
 private:

@@ -1,10 +1,12 @@
 #include "ribvault/print/shell_paths.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <optional>
 
+#include "ribvault/exact/predicates.hpp"
 #include "ribvault/print/cover_lines.hpp"
 #include "ribvault/print/gap_strips.hpp"
 #include "ribvault/print/islands.hpp"
@@ -20,17 +22,12 @@ namespace cl = ClipperLib;
 /// Dilation by a distance in lattice units, erosion by a negative one. Mitres keep at least this distance everywhere.
 Region mitred(const Region& region, double distance) { return offset(region, distance, cl::jtMiter); }
 
-double distance(Point p, Point a, Point b) {
-    const double dx = static_cast<double>(b.x - a.x), dy = static_cast<double>(b.y - a.y);
-    const double tx = static_cast<double>(p.x - a.x), ty = static_cast<double>(p.y - a.y);
-    const double square = dx * dx + dy * dy, t = square > 0 ? std::clamp((tx * dx + ty * dy) / square, 0.0, 1.0) : 0;
-    return std::hypot(tx - t * dx, ty - t * dy);
-}
-
+/// Of a point from a closed line, rounded.
 double distance(Point p, const Contour& ring) {
-    double nearest = distance(p, ring.back(), ring.front());
-    for (std::size_t i = 1; i < ring.size(); ++i) nearest = std::min(nearest, distance(p, ring[i - 1], ring[i]));
-    return nearest;
+    double least = squared_distance(p, {ring.back(), ring.front()}).value();
+    for (std::size_t i = 1; i < ring.size(); ++i)
+        least = std::min(least, squared_distance(p, {ring[i - 1], ring[i]}).value());
+    return std::sqrt(least);
 }
 
 /// The rear, a little to the left: on a flat back, which is seldom quite parallel to the bed's edge, the rearmost point

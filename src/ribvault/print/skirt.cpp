@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ribvault/exact/predicates.hpp"
 #include "ribvault/print/drop_tiny_steps.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
 
@@ -24,11 +25,7 @@ Contour hull_of(const Region& region) {
         const std::size_t begin = hull.size();
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Point p = back ? points[points.size() - 1 - i] : points[i];
-            const auto turns_right = [&] {
-                const Point u = hull[hull.size() - 1] - hull[hull.size() - 2], v = p - hull.back();
-                return u.x * v.y - u.y * v.x <= 0;
-            };
-            while (hull.size() >= begin + 2 && turns_right()) hull.pop_back();
+            while (hull.size() >= begin + 2 && orientation(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
             hull.push_back(p);
         }
         hull.pop_back();

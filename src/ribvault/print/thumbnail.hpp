@@ -9,7 +9,7 @@ namespace ribvault {
 
 using Corner = std::array<double, 3>;  ///< x, y, z in mm
 
-/// Sizes from text like "220x124, 16x16" (the decimals and formats that PrusaSlicer may add, "/PNG", are left out);
+/// Sizes from text like "220x124, 16x16" (the format that PrusaSlicer may add, "/PNG", is left out);
 /// "none" or nothing: no sizes. Throws Error (usage) for other text, and for sides above 1000.
 std::vector<std::array<int, 2>> thumbnail_sizes(const std::string& text);
 

@@ -9,19 +9,6 @@
 namespace ribvault {
 namespace {
 
-int side(Point a, Point b, Point p) {
-    const Unit cross = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);  // fits: lattice_bound
-    return cross > 0 ? 1 : cross < 0 ? -1 : 0;
-}
-
-/// Whether two closed segments have a point in common.
-bool meet(Point a, Point b, Point c, Point d) {
-    if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x) ||
-        std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y))
-        return false;
-    return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0;
-}
-
 /// How far along ab, from 0 to 1, it meets the line of cd; nothing when they are parallel. Rounded.
 std::optional<double> parameter(Point a, Point b, Point c, Point d) {
     const double ux = static_cast<double>(b.x - a.x), uy = static_cast<double>(b.y - a.y);
@@ -56,7 +43,7 @@ TravelMap::TravelMap(const Region& outline, const Region& cavity, const LayerPat
 
 bool TravelMap::sees(Point a, Point b) const {
     const auto [lo, hi] = std::minmax(a.y, b.y);
-    return !outline_.any(lo, hi, [&](const Segment& s) { return meet(a, b, s.a, s.b); });
+    return !outline_.any(lo, hi, [&](const Segment& s) { return segments_touch({a, b}, s); });
 }
 
 Travel TravelMap::travel(Point from, Point to, double longest_detour) const {
@@ -82,7 +69,7 @@ bool TravelMap::detour(Point from, Point to, int contours_left, int& views_left,
     double first = 2, last = -1;
     const auto [lo, hi] = std::minmax(from.y, to.y);
     outline_.any(lo, hi, [&](const Segment& s) {
-        if (!meet(from, to, s.a, s.b)) return false;
+        if (!segments_touch({from, to}, s)) return false;
         if (const auto t = parameter(from, to, s.a, s.b)) first = std::min(first, *t), last = std::max(last, *t);
         return false;
     });
@@ -133,24 +120,13 @@ bool TravelMap::detour(Point from, Point to, int contours_left, int& views_left,
     return true;
 }
 
-bool TravelMap::in_cavity(double x, double y) const {
-    int winding = 0;
-    const auto row = static_cast<Unit>(std::floor(y));
-    cavity_.any(row, row, [&](const Segment& s) {
-        const auto ay = static_cast<double>(s.a.y), by = static_cast<double>(s.b.y);
-        if ((ay <= y) == (by <= y)) return false;
-        const double at = static_cast<double>(s.a.x) + (y - ay) * static_cast<double>(s.b.x - s.a.x) / (by - ay);
-        if (at > x) winding += by > ay ? 1 : -1;
-        return false;
-    });
-    return winding != 0;
-}
+bool TravelMap::in_cavity(double x, double y) const { return cavity_.winding(x, y) != 0; }
 
 double TravelMap::over_cavity(Point a, Point b) const {
     std::vector<double> cuts{0, 1};
     const auto [lo, hi] = std::minmax(a.y, b.y);
     cavity_.any(lo, hi, [&](const Segment& s) {
-        if (meet(a, b, s.a, s.b))
+        if (segments_touch({a, b}, s))
             if (const auto t = parameter(a, b, s.a, s.b); t && *t > 0 && *t < 1) cuts.push_back(*t);
         return false;
     });

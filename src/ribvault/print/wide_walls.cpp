@@ -13,7 +13,7 @@ namespace cl = ClipperLib;
 
 constexpr double arc_tolerance = 100;  ///< lattice units
 
-std::vector<Segment> centre_lines(const SupportForest& forest) {
+std::vector<Segment> wide_lines(const SupportForest& forest) {
     std::vector<Segment> lines;
     for (auto [e, end] = edges(forest); e != end; ++e)
         if (forest[source(*e, forest)].wide)
@@ -57,7 +57,7 @@ void append_outline(Contour outline, const Region& cavity, const PointLocation& 
 
 void append_wide_walls(const SupportForest& forest, const Region& cavity, const Settings& settings, LayerPlan& plan) {
     if (settings.wall_lines < 2) return;
-    const std::vector<Segment> lines = centre_lines(forest);
+    const std::vector<Segment> lines = wide_lines(forest);
     if (lines.empty()) return;
     const PointLocation location(edges_of(cavity), units_per_mm);
     for (int twice = settings.wall_lines - 1; twice > 0; twice -= 2)

@@ -1,5 +1,6 @@
 #include "ribvault/print/write_gcode.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "ribvault/print/gcode_text.hpp"
@@ -153,47 +154,28 @@ bool must_retract(const Travel& way, TrackEnd from, TrackEnd to, const PrinterSe
     return way.leaves_island || way.open_air > printer.retract_over * static_cast<double>(units_per_mm);
 }
 
-double speed_of(const ToolPath& path, int layer, const PrinterSettings& printer) {
-    if (layer == 0) return printer.first_layer_speed;
-    return is_support(path.kind) ? printer.support_speed : printer.print_speed;
+/// `share`: of the speed that the printer's settings say.
+double speed_of(const ToolPath& path, int layer, const PrinterSettings& printer, double share) {
+    const double speed = layer == 0              ? printer.first_layer_speed
+                         : is_support(path.kind) ? printer.support_speed
+                                                 : printer.print_speed;
+    return std::max(share * speed, std::min(speed, printer.min_print_speed));
 }
 
 int tool_of(const ToolPath& path, const PrinterSettings& printer) {
     return path.kind == TrackKind::external_support ? printer.support_extruder : 0;
 }
 
-Unit height_of(int layer, const Settings& settings) {
-    return layer == 0 ? settings.first_layer_height : settings.layer_height;
-}
-
-}  // namespace
-
-PrintStatistics& PrintStatistics::operator+=(const PrintStatistics& other) {
-    for (std::size_t k = 0; k < track_kinds; ++k) length[k] += other.length[k], volume[k] += other.volume[k];
-    filament += other.filament;
-    prime_surplus += other.prime_surplus;
-    travel += other.travel;
-    open_air += other.open_air;
-    seconds += other.seconds;
-    travels += other.travels;
-    retractions += other.retractions;
-    detours += other.detours;
-    return *this;
-}
-
-Unit top_of_layer(int layer, const Settings& settings) {
-    return settings.first_layer_height + layer * settings.layer_height;
-}
-
-LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Settings& settings,
-                      const PrinterSettings& printer, const std::vector<ToolPath>& beside) {
-    const Unit height = height_of(layer.layer, settings);
+/// gcode_layer with tracks at a share of their speeds.
+LayerText layer_at(double share, const LayerPaths& layer, const TravelMap& map, const Settings& settings,
+                   const PrinterSettings& printer, const std::vector<ToolPath>& beside) {
+    const Unit height = settings.height_of(layer.layer);
     LayerText out;
     out.layer = layer.layer;
     out.heading = ";LAYER_CHANGE\n;LAYER:";
     append_integer(out.heading, layer.layer);
     out.heading += "\n;Z:";
-    append_decimal(out.heading, top_of_layer(layer.layer, settings));
+    append_decimal(out.heading, settings.top_of(layer.layer));
     out.heading += "\n;HEIGHT:";
     append_decimal(out.heading, height);
     out.heading += '\n';
@@ -232,10 +214,11 @@ LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Setti
             append_decimal(writer.text, path.width);
             writer.text += '\n';
         }
+        const double speed = speed_of(path, layer.layer, printer, share);
         if (path.points.size() == 1)
-            writer.dot(path, height, speed_of(path, layer.layer, printer));
+            writer.dot(path, height, speed);
         else
-            writer.track(path, height, speed_of(path, layer.layer, printer), joined);
+            writer.track(path, height, speed, joined);
         previous = &path;
     };
     for (const ToolPath& path : beside) print(path, nullptr);
@@ -246,6 +229,38 @@ LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Setti
     out.statistics = writer.statistics;
     out.statistics.seconds = motion_seconds(writer.moves, printer.limits);
     return out;
+}
+
+/// Seconds that a layer's tracks take at full speed, without acceleration.
+double cruising_seconds(const LayerPaths& layer, const PrinterSettings& printer) {
+    double seconds = 0;
+    for (const ToolPath& path : layer.paths)
+        seconds += length(path) / units_per_mm / speed_of(path, layer.layer, printer, 1);
+    return seconds;
+}
+
+}  // namespace
+
+PrintStatistics& PrintStatistics::operator+=(const PrintStatistics& other) {
+    for (std::size_t k = 0; k < track_kinds; ++k) length[k] += other.length[k], volume[k] += other.volume[k];
+    filament += other.filament;
+    prime_surplus += other.prime_surplus;
+    travel += other.travel;
+    open_air += other.open_air;
+    seconds += other.seconds;
+    travels += other.travels;
+    retractions += other.retractions;
+    detours += other.detours;
+    return *this;
+}
+
+LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Settings& settings,
+                      const PrinterSettings& printer, const std::vector<ToolPath>& beside) {
+    LayerText text = layer_at(1, layer, map, settings, printer, beside);
+    const double missing = printer.min_layer_time - text.statistics.seconds;
+    if (missing <= 0) return text;
+    const double cruising = cruising_seconds(layer, printer);
+    return layer_at(cruising / (cruising + missing), layer, map, settings, printer, beside);
 }
 
 std::string gcode_joint(const LayerText* below, const LayerText& layer, const TravelMap& map, const Settings& settings,
@@ -266,7 +281,7 @@ std::string gcode_joint(const LayerText* below, const LayerText& layer, const Tr
         append_integer(writer.text, std::lround(printer.fan_percent * 2.55));
         writer.text += " ; fan\n";
     }
-    writer.rise(top_of_layer(layer.layer, settings), height_of(layer.layer, settings));
+    writer.rise(settings.top_of(layer.layer), settings.height_of(layer.layer));
     if (layer.first) {
         // After the header the tool is T0; after a layer without tracks it may be either.
         const int tool = knows_start ? below->last->tool : 0;
@@ -284,6 +299,7 @@ std::string gcode_joint(const LayerText* below, const LayerText& layer, const Tr
 std::string gcode_end_of_layers(const LayerText& top, const PrinterSettings& printer, PrintStatistics& statistics) {
     Writer writer(printer);
     if (top.last) writer.retract();
+    writer.statistics.seconds = motion_seconds(writer.moves, printer.limits);
     statistics += writer.statistics;
     return std::move(writer.text);
 }

@@ -45,9 +45,6 @@ struct LayerText {
     PrintStatistics statistics;           ///< of the body
 };
 
-/// Height of the top of a layer over the bed: layer 0 is `first_layer_height` high, all others `layer_height`.
-Unit top_of_layer(int layer, const Settings& settings);
-
 /// One layer: for every path `;TYPE:`, `;WIDTH:` (PrusaSlicer's names; internal supports are "Internal infill",
 /// external ones "Support material", thin walls "Gap fill"), a travel, then the track. `beside`: skirt and brim,
 /// printed first.
@@ -64,6 +61,9 @@ Unit top_of_layer(int layer, const Settings& settings);
 /// cross-section as the paper counts material; a dot (path of one point) a disc of that width and height, in place. E
 /// has five decimals; its rounding is carried on, so that its sum over the tracks of a layer is within 0.00001 mm of
 /// the volume over the filament's cross-section.
+/// A layer that would take less than printer.min_layer_time is written slower, so that it takes about that, no track
+/// below printer.min_print_speed.
+///
 /// Precondition: every path has at least one point; the printer settings passed check_printer.
 LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Settings& settings,
                       const PrinterSettings& printer, const std::vector<ToolPath>& beside = {});
@@ -74,7 +74,7 @@ LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Setti
 std::string gcode_joint(const LayerText* below, const LayerText& layer, const TravelMap& map, const Settings& settings,
                         const PrinterSettings& printer, PrintStatistics& statistics);
 
-/// The retraction after the last layer; nothing when that is retracted already.
+/// The retraction after the last layer; nothing when that is retracted already. Adds to `statistics`.
 std::string gcode_end_of_layers(const LayerText& top, const PrinterSettings& printer, PrintStatistics& statistics);
 
 }  // namespace ribvault

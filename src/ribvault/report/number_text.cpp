@@ -1,6 +1,7 @@
 #include "ribvault/report/number_text.hpp"
 
 #include <cmath>
+#include <cstdarg>
 #include <cstdio>
 
 namespace ribvault {
@@ -9,6 +10,21 @@ std::string fixed(double value, int places) {
     char text[64];
     std::snprintf(text, sizeof text, "%.*f", places, value);
     return text;
+}
+
+void append_formatted(std::string& text, const char* format, ...) {
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    const int count = std::vsnprintf(nullptr, 0, format, arguments);
+    va_end(arguments);
+    if (count > 0) {
+        const std::size_t before = text.size();
+        text.resize(before + static_cast<std::size_t>(count) + 1);
+        std::vsnprintf(text.data() + before, static_cast<std::size_t>(count) + 1, format, again);
+        text.pop_back();
+    }
+    va_end(again);
 }
 
 std::string number_text(const Enclosure& e, int places) {

@@ -9,6 +9,9 @@ namespace ribvault {
 
 std::string fixed(double value, int places);
 
+/// Appends what printf would print, however long.
+__attribute__((format(printf, 2, 3))) void append_formatted(std::string& text, const char* format, ...);
+
 /// One number where both bounds print alike or differ by less than the last place, else both; an infinite one has no
 /// material below.
 std::string number_text(const Enclosure& e, int places);

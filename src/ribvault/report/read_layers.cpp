@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "ribvault/error.hpp"
+#include "ribvault/input_stream.hpp"
 #include "ribvault/report/layers_file.hpp"
 
 namespace ribvault {
@@ -183,10 +184,7 @@ void check_schema(const Json& header) {
 
 }  // namespace
 
-LayersFile::LayersFile(std::filesystem::path file) : path_(std::move(file)), in_(path_, std::ios::binary) {
-    std::error_code error;
-    if (!in_ || std::filesystem::is_directory(path_, error))
-        throw Error(ErrorKind::unreadable, path_.string() + ": there is no such file, or it cannot be read");
+LayersFile::LayersFile(std::filesystem::path file) : path_(std::move(file)), in_(open_input(path_, "layers")) {
     if (!read_line(header_)) fail("is empty; expected a layers file");
     try {
         if (header_ == "{" || header_ == "{\r")  // JSON over many lines
@@ -234,7 +232,10 @@ void LayersFile::fail(const std::string& what) const {
 }
 
 bool LayersFile::read_line(std::string& line) {
-    if (!std::getline(in_, line)) return false;
+    if (!std::getline(in_, line)) {
+        check_read(in_, path_);
+        return false;
+    }
     ++line_;
     return true;
 }

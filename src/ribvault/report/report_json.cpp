@@ -107,6 +107,8 @@ Json printer(const PrinterSettings& p) {
             {"print_speed_mm_s", p.print_speed},
             {"support_speed_mm_s", p.support_speed},
             {"first_layer_speed_mm_s", p.first_layer_speed},
+            {"min_layer_time_s", p.min_layer_time},
+            {"min_print_speed_mm_s", p.min_print_speed},
             {"travel_speed_mm_s", p.travel_speed},
             {"retraction_mm", p.retraction},
             {"retraction_speed_mm_s", p.retraction_speed},

@@ -69,12 +69,9 @@ bool is_tie(const Region& sliver, const NearestSegment& shell, const NearestSegm
     constexpr Unit margin =
         static_cast<Unit>(2 * clip_rounding);  // `inner` and its corners lie no farther from C_{i+1}'s edges
     for (const Segment& e : edges_of(sliver)) {
-        Box box;
-        box.add(e.a), box.add(e.b);
-        box.grow(margin);
         // The sliver lies to the left of its own edges and, being no part of C_{i+1}, to the right of that one's.
         bool tie = within_radius(e, shell, radius, 1, radius - slack / 4) || within_radius(e, edges_above, margin);
-        edges_above.visit(box, [&](std::uint32_t k) {
+        edges_above.visit(bounding_box(e, margin), [&](std::uint32_t k) {
             const Segment& edge = edges_above.segments()[k];
             tie = tie && within_radius(edge, shell, radius, -1, radius - slack / 2);
         });
@@ -89,9 +86,8 @@ bool contours_cross(const Region& region) {
     bool cross = false;
     for (std::uint32_t k = 0; !cross && k < edges.segments().size(); ++k) {
         const Segment& e = edges.segments()[k];
-        Box box;
-        box.add(e.a), box.add(e.b);
-        edges.visit(box, [&](std::uint32_t j) { cross = cross || (j > k && segments_cross(e, edges.segments()[j])); });
+        edges.visit(bounding_box(e),
+                    [&](std::uint32_t j) { cross = cross || (j > k && segments_cross(e, edges.segments()[j])); });
     }
     return cross;
 }

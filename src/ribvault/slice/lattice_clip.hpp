@@ -31,23 +31,23 @@ inline Region from_clipper(const ClipperLib::Paths& paths) {
     return region;
 }
 
-/// Boolean operation with the non-zero rule on both operands.
-inline Region clip(ClipperLib::ClipType operation, const Region& subject, const Region& clip) {
+/// Boolean operation with the non-zero rule on both operands; the result as ClipperLib::Paths or PolyTree.
+template <class Result>
+Result clip_as(ClipperLib::ClipType operation, const Region& subject, const Region& clip) {
     ClipperLib::Clipper clipper;
     clipper.AddPaths(to_clipper(subject), ClipperLib::ptSubject, true);
     clipper.AddPaths(to_clipper(clip), ClipperLib::ptClip, true);
-    ClipperLib::Paths result;
+    Result result;
     clipper.Execute(operation, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
-    return from_clipper(result);
+    return result;
+}
+inline Region clip(ClipperLib::ClipType operation, const Region& subject, const Region& clip) {
+    return from_clipper(clip_as<ClipperLib::Paths>(operation, subject, clip));
 }
 
 /// The connected pieces of the result, each an outer contour followed by its holes.
 inline std::vector<Region> clip_to_pieces(ClipperLib::ClipType operation, const Region& subject, const Region& clip) {
-    ClipperLib::Clipper clipper;
-    clipper.AddPaths(to_clipper(subject), ClipperLib::ptSubject, true);
-    clipper.AddPaths(to_clipper(clip), ClipperLib::ptClip, true);
-    ClipperLib::PolyTree tree;
-    clipper.Execute(operation, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    const auto tree = clip_as<ClipperLib::PolyTree>(operation, subject, clip);
     std::vector<Region> pieces;
     for (const ClipperLib::PolyNode* node = tree.GetFirst(); node; node = node->GetNext()) {
         if (node->IsHole()) continue;

@@ -14,12 +14,12 @@
 namespace ribvault {
 namespace {
 
-std::string describe(const std::vector<GapClosing>& gaps, std::size_t count) {
+std::string describe(const std::vector<GapClosing>& gaps) {
     std::ostringstream text;
     for (std::size_t k = 0; k < std::min<std::size_t>(gaps.size(), 3); ++k)
         text << (k ? "; " : "") << gaps[k].length << " mm wide on layer " << gaps[k].layer << " at (" << gaps[k].x
              << ", " << gaps[k].y << ") mm";
-    if (count > 3) text << "; ...";
+    if (gaps.size() > 3) text << "; ...";
     return text.str();
 }
 
@@ -28,7 +28,7 @@ std::string describe(const std::vector<GapClosing>& gaps, std::size_t count) {
                      [](const GapClosing& a, const GapClosing& b) { return a.length > b.length; });
     std::ostringstream text;
     text << "the mesh is open: " << gaps.size() << (gaps.size() == 1 ? " gap" : " gaps") << " wider than "
-         << to_mm(settings.max_gap) << " mm " << where << " (" << describe(gaps, gaps.size())
+         << to_mm(settings.max_gap) << " mm " << where << " (" << describe(gaps)
          << "); repair the mesh, or allow wider gaps with --max-gap";
     throw Error(ErrorKind::bad_geometry, text.str());
 }

@@ -48,13 +48,11 @@ private:
     }
 
     bool brace(const TreeWalk& tree) {
-        std::vector<std::size_t> place(num_vertices(forest_));
-        for (std::size_t k = 0; k < tree.order.size(); ++k) place[tree.order[k]] = k;
         const std::size_t tip = tree.farthest();
         const double reach = tree.distance[tip];
         std::optional<Brace> best;
         double least = reach;
-        for (std::size_t k = tip; k != 0 && reach - tree.distance[k] < least; k = place[tree.parent[k]]) {
+        for (std::size_t k = tip; k != 0 && reach - tree.distance[k] < least; k = tree.parent[k]) {
             const double left = reach - tree.distance[k];
             if (const auto found = shortest(tree.order[k], least - left, forest_[tree.order[0]].at))
                 best = found, least = left + length(found->foot - forest_[tree.order[k]].at);
@@ -85,10 +83,8 @@ private:
 
     bool is_free(std::size_t v, const Segment& way) const {
         if (meets_shell(way, forest_[v].root, true, boundary_)) return false;
-        Box box;
-        box.add(way.a), box.add(way.b);
         bool barred = false;
-        grid_.visit(box, [&](std::uint32_t w) {
+        grid_.visit(bounding_box(way), [&](std::uint32_t w) {
             if (barred) return;
             const Segment wall{forest_[walls_[w].a].at, forest_[walls_[w].b].at};
             barred = walls_[w].a == v || walls_[w].b == v ? collide(way, wall) : segments_touch(way, wall);

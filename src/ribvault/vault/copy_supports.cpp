@@ -19,15 +19,13 @@ struct Meeting {
 
 void find_meetings(const Segment& s, const CavityBoundary& boundary, std::vector<Meeting>& meetings) {
     meetings.clear();
-    Box box;
-    box.add(s.a), box.add(s.b);
-    boundary.edges.visit(box, [&](std::uint32_t k) {
+    boundary.edges.visit(bounding_box(s), [&](std::uint32_t k) {
         const Segment& e = boundary.edges.segments()[k];
         if (!segments_touch(s, e)) return;
         std::int64_t from = cross(e.a, e.b, s.a), to = cross(e.a, e.b, s.b);
         if (from == to) return;  // along the edge: its neighbours give the places
         if (from < 0 || to > 0) from = -from, to = -to;
-        // from >= 0 >= to now, and from - to > 0 stays below 2^64 only after halving for very long segments.
+        // from >= 0 >= to now, and from - to > 0; of very long segments it fits 63 bits only once both are quartered.
         if (from > (std::int64_t{1} << 61) || to < -(std::int64_t{1} << 61)) from >>= 2, to >>= 2;
         meetings.push_back({from, from - to});
     });

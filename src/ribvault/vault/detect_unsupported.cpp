@@ -35,19 +35,8 @@ Region circumscribed_stadium(const Segment& s, Unit r) {
 Region unsupported_walls(const std::vector<Segment>& inherited, const SupportForest& propagated, const Region* within,
                          const Settings& settings) {
     if (inherited.empty() || (within && within->empty())) return {};
-    std::vector<Segment> walls;
-    Box box;
-    for (auto [e, end] = edges(propagated); e != end; ++e) {
-        walls.push_back({propagated[source(*e, propagated)].at, propagated[target(*e, propagated)].at});
-        box.add(walls.back().a), box.add(walls.back().b);
-    }
-    for (auto [v, end] = vertices(propagated); v != end; ++v)
-        if (out_degree(*v, propagated) == 0) {
-            walls.push_back({propagated[*v].at, propagated[*v].at});
-            box.add(propagated[*v].at);
-        }
-    if (walls.empty()) box.add(inherited.front().a);
-    SegmentGrid grid(box, units_per_mm, settings.support_radius);
+    const std::vector<Segment> walls = centre_lines(propagated);
+    SegmentGrid grid(bounding_box(propagated), units_per_mm, settings.support_radius);
     for (std::uint32_t k = 0; k < walls.size(); ++k) grid.insert(k, walls[k]);
 
     Region stadiums;

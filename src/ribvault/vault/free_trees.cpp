@@ -22,12 +22,10 @@ Middle middle_of(Vertex any, const SupportForest& forest) {
     const TreeWalk path = walk_from(first.order[first.farthest()], forest);
     std::size_t at = path.farthest();
     const double half = path.distance[at] / 2;
-    while (path.distance[at] > half && path.order[at] != path.parent[at]) {
-        const Vertex up = path.parent[at];
-        std::size_t above = at;
-        while (path.order[above] != up) --above;
-        if (path.distance[above] <= half) return {up, path.order[at], half - path.distance[above]};
-        at = above;
+    while (path.distance[at] > half) {
+        const std::size_t up = path.parent[at];
+        if (path.distance[up] <= half) return {path.order[up], path.order[at], half - path.distance[up]};
+        at = up;
     }
     return {path.order[at], path.order[at], 0};
 }
@@ -40,12 +38,10 @@ Vertex middle_vertex(Vertex any, const SupportForest& forest) {
 /// The track of a tree on all layers down to the bed while its tips run back to the root.
 double track_down(Vertex root, const SupportForest& forest, int layers, Unit step) {
     const TreeWalk walk = walk_from(root, forest);
-    std::vector<std::size_t> place(num_vertices(forest));
-    for (std::size_t k = 0; k < walk.order.size(); ++k) place[walk.order[k]] = k;
     std::vector<double> reach(walk.order.size(), 0);
     double sum = 0;
     for (std::size_t k = walk.order.size(); k-- > 1;) {
-        const std::size_t up = place[walk.parent[k]];
+        const std::size_t up = walk.parent[k];
         const double l = walk.distance[k] - walk.distance[up];
         sum += l * std::min(static_cast<double>(layers), (reach[k] + l / 2) / static_cast<double>(step));
         reach[up] = std::max(reach[up], reach[k] + l);

@@ -1,6 +1,7 @@
 #include "ribvault/vault/growing_supports.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace ribvault {
 
@@ -50,10 +51,8 @@ bool GrowingSupports::covers(Point p, double radius) const {
 
 template <class Skip>
 bool GrowingSupports::walls_bar(const Segment& way, Skip&& skip) const {
-    Box box;
-    box.add(way.a), box.add(way.b);
     bool barred = false;
-    grid_.visit(box, [&](std::uint32_t w) {
+    grid_.visit(bounding_box(way), [&](std::uint32_t w) {
         if (barred || !walls_[w].alive || skip(w)) return;
         const Segment s = segment(w);
         barred = s.a != way.b && s.b != way.b && segments_touch(way, s);
@@ -62,10 +61,8 @@ bool GrowingSupports::walls_bar(const Segment& way, Skip&& skip) const {
 }
 
 bool GrowingSupports::edge_bars(const Segment& way, bool at_root) const {
-    Box box;
-    box.add(way.a), box.add(way.b);
     bool barred = false;
-    boundary_.edges.visit(box, [&](std::uint32_t k) {
+    boundary_.edges.visit(bounding_box(way), [&](std::uint32_t k) {
         const Segment& e = boundary_.edges.segments()[k];
         if (!barred && segments_touch(way, e)) barred = !at_root || compare_distance(way.b, e, root_tolerance) > 0;
     });

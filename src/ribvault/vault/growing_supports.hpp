@@ -1,7 +1,6 @@
 // The supports of one layer while walls are added to them: coverage, nearest wall, splitting (Section 4.3).
 #pragma once
 
-#include <limits>
 #include <optional>
 
 #include "ribvault/settings.hpp"

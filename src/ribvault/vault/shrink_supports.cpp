@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "ribvault/exact/real_vector.hpp"
 #include "ribvault/vault/free_trees.hpp"
@@ -20,7 +19,7 @@ public:
         : boundary_(boundary),
           step_(step),
           braced_(static_cast<double>(braced)),
-          grid_(bounds(forest), units_per_mm, step + 2) {
+          grid_(bounding_box(forest), units_per_mm, step + 2) {
         for (auto [v, end] = vertices(forest); v != end; ++v)
             nodes_.push_back({forest[*v].at, forest[*v].root, {forest[*v].at}, {}, forest[*v]});
         for (auto [e, end] = edges(forest); e != end; ++e) add_wall(source(*e, forest), target(*e, forest));
@@ -58,12 +57,6 @@ private:
         bool alive = true;
     };
 
-    static Box bounds(const SupportForest& forest) {
-        Box box;
-        for (auto [v, end] = vertices(forest); v != end; ++v) box.add(forest[*v].at);
-        if (box.empty()) box.add({0, 0});
-        return box;
-    }
     Segment segment(const Wall& w) const { return {nodes_[w.a].at, nodes_[w.b].at}; }
     std::size_t other(std::uint32_t w, std::size_t v) const { return walls_[w].a == v ? walls_[w].b : walls_[w].a; }
 
@@ -87,10 +80,8 @@ private:
             if (u == merged) continue;
             const Segment s{p, nodes_[u].at};
             if (s.a == s.b) return true;
-            Box box;
-            box.add(s.a), box.add(s.b);
             bool hit = false;
-            grid_.visit(box, [&](std::uint32_t k) {
+            grid_.visit(bounding_box(s), [&](std::uint32_t k) {
                 if (hit || !walls_[k].alive || k == w) return;
                 const Wall& o = walls_[k];
                 if (o.a == v || o.b == v) {
@@ -134,8 +125,7 @@ private:
             const double weight = 1 / std::max(norm(u - here), 1.0);
             sum = sum + weight * u, weights += weight;
         }
-        const Vec mean = (1 / weights) * sum;
-        return here + 1.0 * (mean - here);
+        return (1 / weights) * sum;
     }
 
     double length_at(std::size_t v, Point p, std::size_t merged) const {
@@ -325,9 +315,7 @@ private:
             // The corner is empty between the two walls, but another wall may reach into it.
             bool free = true;
             for (const Segment s : {Segment{p, nodes_[a].at}, Segment{p, nodes_[b].at}, Segment{nodes_[v].at, p}}) {
-                Box box;
-                box.add(s.a), box.add(s.b);
-                grid_.visit(box, [&](std::uint32_t k) {
+                grid_.visit(bounding_box(s), [&](std::uint32_t k) {
                     if (free && walls_[k].alive && k != w1 && k != w2) free = !collide(s, segment(walls_[k]));
                 });
             }

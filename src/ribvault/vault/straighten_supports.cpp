@@ -32,7 +32,7 @@ public:
           step_(step),
           place_(num_vertices(forest)),
           at_(num_vertices(forest)),
-          grid_(bounds(forest), units_per_mm, 0) {
+          grid_(bounding_box(forest), units_per_mm, 0) {
         for (std::size_t v = 0; v < place_.size(); ++v) place_[v] = forest[v].at;
         for (auto [e, end] = edges(forest); e != end; ++e) add_wall(source(*e, forest), target(*e, forest), false);
     }
@@ -47,12 +47,6 @@ public:
     }
 
 private:
-    static Box bounds(const SupportForest& forest) {
-        Box box;
-        for (auto [v, end] = vertices(forest); v != end; ++v) box.add(forest[*v].at);
-        if (box.empty()) box.add({0, 0});
-        return box;
-    }
     bool passes(std::size_t v) const { return out_degree(v, forest_) == 2 && !forest_[v].root && !pinned_[v]; }
     Segment segment(const Wall& w) const { return {place_[w.a], place_[w.b]}; }
 
@@ -117,10 +111,9 @@ private:
     }
 
     bool collides(const Segment& s) const {
-        Box box;
-        box.add(s.a), box.add(s.b);
         bool hit = false;
-        grid_.visit(box, [&](std::uint32_t w) { hit = hit || (walls_[w].alive && collide(s, segment(walls_[w]))); });
+        grid_.visit(bounding_box(s),
+                    [&](std::uint32_t w) { hit = hit || (walls_[w].alive && collide(s, segment(walls_[w]))); });
         return hit;
     }
 

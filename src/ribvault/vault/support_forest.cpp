@@ -17,4 +17,21 @@ double length(const SupportForest& forest) {
     return sum;
 }
 
+std::vector<Segment> centre_lines(const SupportForest& forest) {
+    std::vector<Segment> lines;
+    lines.reserve(num_vertices(forest));
+    for (auto [e, end] = edges(forest); e != end; ++e)
+        lines.push_back({forest[source(*e, forest)].at, forest[target(*e, forest)].at});
+    for (auto [v, end] = vertices(forest); v != end; ++v)
+        if (out_degree(*v, forest) == 0) lines.push_back({forest[*v].at, forest[*v].at});
+    return lines;
+}
+
+Box bounding_box(const SupportForest& forest) {
+    Box box;
+    for (auto [v, end] = vertices(forest); v != end; ++v) box.add(forest[*v].at);
+    if (box.empty()) box.add({0, 0});
+    return box;
+}
+
 }  // namespace ribvault

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <boost/graph/adjacency_list.hpp>
-
 #include <cstdint>
+#include <vector>
 
 #include "ribvault/exact/lattice.hpp"
 
@@ -11,7 +11,7 @@ namespace ribvault {
 
 struct SupportVertex {
     Point at;
-    bool root = false;  ///< lies on the shell B_i (within two lattice units of the boundary of C_i, on the shell's
+    bool root = false;  ///< lies on the shell B_i (within root_tolerance of the boundary of C_i, on the shell's
                         ///< side), or is free
     bool free = false;  ///< a root away from the shell: its tree stands on the layer below alone (vault/free_trees.hpp)
     bool outside = false;  ///< its tree stands outside the slice: an external support
@@ -41,5 +41,11 @@ using SupportForest =
 
 /// Of all walls together, lattice units.
 double length(const SupportForest& forest);
+
+/// S_i as segments, edges in their order, then dots as segments of no length.
+std::vector<Segment> centre_lines(const SupportForest& forest);
+
+/// Of all vertices; the origin where there are none.
+Box bounding_box(const SupportForest& forest);
 
 }  // namespace ribvault

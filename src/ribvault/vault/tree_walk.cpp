@@ -9,9 +9,9 @@ std::size_t TreeWalk::farthest() const {
 }
 
 TreeWalk walk_from(std::size_t start, const SupportForest& forest) {
-    TreeWalk walk{{start}, {start}, {0}};
+    TreeWalk walk{{start}, {0}, {0}};
     for (std::size_t k = 0; k < walk.order.size(); ++k) {
-        const std::size_t v = walk.order[k], from = walk.parent[k];
+        const std::size_t v = walk.order[k], from = walk.order[walk.parent[k]];
         const double here = walk.distance[k];
         bool parent_met = k == 0;
         for (auto [w, end] = adjacent_vertices(v, forest); w != end; ++w) {
@@ -19,7 +19,7 @@ TreeWalk walk_from(std::size_t start, const SupportForest& forest) {
                 parent_met = true;
                 continue;
             }
-            walk.order.push_back(*w), walk.parent.push_back(v);
+            walk.order.push_back(*w), walk.parent.push_back(k);
             walk.distance.push_back(here + length(forest[*w].at - forest[v].at));
         }
     }

@@ -14,10 +14,8 @@ inline bool collide(const Segment& s, const Segment& t) {
 
 /// Does a wall meet the shell anywhere but at a root of it (`root_a`, `root_b`: its ends are roots)?
 inline bool meets_shell(const Segment& wall, bool root_a, bool root_b, const CavityBoundary& boundary) {
-    Box box;
-    box.add(wall.a), box.add(wall.b);
     bool meets = false;
-    boundary.edges.visit(box, [&](std::uint32_t k) {
+    boundary.edges.visit(bounding_box(wall), [&](std::uint32_t k) {
         const Segment& e = boundary.edges.segments()[k];
         if (meets || !segments_touch(wall, e)) return;
         const bool at_a = root_a && compare_distance(wall.a, e, 2 * root_tolerance) <= 0;

@@ -108,7 +108,7 @@ WithoutBridges take_out_bridges(const PrintedLayer& upper, const std::vector<cha
         if (left < w1 && last.track + 1 < upper.tracks.size() && continues[last.track + 1] != 0)
             beyond(last.track + 1, true, w1 - left);
     }
-    WithoutBridges result{{upper.z, upper.height, {}}, {}};
+    WithoutBridges result;
     for (std::size_t k = 0; k < upper.tracks.size(); ++k) {
         const PrintedTrack& t = upper.tracks[k];
         if (cuts[k].empty()) {

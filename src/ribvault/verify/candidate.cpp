@@ -1,6 +1,5 @@
 #include "ribvault/verify/candidate.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace ribvault::verify {

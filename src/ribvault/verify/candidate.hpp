@@ -1,10 +1,8 @@
 // Candidate points: where a corner of the uncovered set can be (docs/verifier.md), constructed in any number type.
 #pragma once
 
-#include <memory>
 #include <mutex>
 #include <optional>
-#include <utility>
 
 #include "ribvault/verify/cover_problem.hpp"
 #include "ribvault/verify/verdict.hpp"

@@ -150,7 +150,6 @@ std::optional<boost::container::small_vector<Bounds, 4>> parts_of_material(const
                                                                           const Bounds& whole) {
     boost::container::small_vector<Bounds, 4> parts;
     const std::size_t n = cell.edges.size();
-    if (n > 2) return std::nullopt;
     const std::optional<Corner> corner = n == 2 ? corner_of(s, cell) : std::nullopt;
     std::array<Line, 2> lines{};
     if (corner) lines = corner->lines;

@@ -58,12 +58,10 @@ std::optional<Segment> find_too_near(const ExactPolygons& outline, const std::ve
 
 std::optional<Segment> find_too_near(const NearestSegment& object, const std::vector<Segment>& tracks, Unit distance) {
     for (const Segment& track : tracks) {
-        Box box;
-        box.add(track.a), box.add(track.b);
-        box.grow(distance);
         bool near = false;
-        object.visit(
-            box, [&](std::uint32_t k) { near = near || compare_distance(object.segments()[k], track, distance) < 0; });
+        object.visit(bounding_box(track, distance), [&](std::uint32_t k) {
+            near = near || compare_distance(object.segments()[k], track, distance) < 0;
+        });
         if (near) return track;
     }
     return std::nullopt;

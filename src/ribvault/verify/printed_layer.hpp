@@ -23,7 +23,6 @@ struct PrintedTrack {
 
 /// The extrusions of one height. The material of the layer is the union of their stadiums.
 struct PrintedLayer {
-    Rational z, height;  ///< mm; not looked at by the verifier
     std::vector<PrintedTrack> tracks;
 };
 

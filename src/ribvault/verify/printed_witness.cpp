@@ -8,7 +8,7 @@ namespace ribvault::verify {
 
 namespace {
 
-// Nearest multiple of 2^-digits.
+/// The greatest multiple of 2^-bits that is no greater.
 Rational rounded(const Rational& a, unsigned bits) {
     mpz_class n = a.get_num();
     n <<= bits;
