@@ -181,6 +181,27 @@ TEST_CASE("an interrupted run leaves nothing behind and keeps what was there") {
     CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator{}) == 2);
 }
 
+TEST_CASE("the summary names the first five layers that are refuted, what may help, and paths of any length") {
+    RunReport report;
+    report.verdict.proved = false;
+    for (int k = 0; k < 9; ++k) {
+        report.layers.emplace_back();
+        report.layers.back().layer = k;
+        report.layers.back().verdict.supported = k == 3;
+        report.layers.back().verdict.malformed = "no reason";
+    }
+    Job job;
+    job.report = std::string(2000, 'r');
+    const std::string text = summary(report, job);
+    for (int k = 0; k < 9; ++k) {
+        INFO(k);
+        CHECK((text.find("  layer " + std::to_string(k) + ": no reason\n") != std::string::npos) == (k < 6 && k != 3));
+    }
+    CHECK(text.find("what may help") != std::string::npos);
+    CHECK(text.ends_with("report    " + job.report->string() + "\n"));
+    CHECK(verdict_text(report, job).find("NOT PROVED") != std::string::npos);
+}
+
 TEST_CASE("bad input has its own error each") {
     const Folder folder;
     check_refused(job_for(folder.path / "missing.stl"), ErrorKind::unreadable, "missing.stl");
