@@ -7,7 +7,7 @@ PROGRAMS = {"prusa": "PrusaSlicer", "cura": "CuraEngine", "own": "ribvault"}
 
 def build(lab):
     table = Table("peers", "Lightning infill of slicers, one perimeter, one cover",
-                  [("model", ""), ("program", ""), ("total mm³", ".0f"), ("infill or supports mm³", ".0f"), ("sampled: unsupported mm", ".0f"), ("sampled: external mm", ".0f"),
+                  [("model", ""), ("program", ""), ("extruded mm³ (E)", ".0f"), ("infill or supports mm³", ".0f"), ("sampled: unsupported mm", ".0f"), ("sampled: external mm", ".0f"),
                    ("exactly: unsupported mm", ".0f"), ("our verifier", ""), ("travels", "d"), ("seconds", ".2f"), ("CPU s", ".2f"), ("what", "")],
                   note="Sampled: centre lines every 0.05 mm against the layer below. Exactly: `ribvault verify` on the same file, external overhangs included, which no infill "
                        "can hold; ribvault's own hang there and nowhere else (`verify --inside`: supported).")
