@@ -111,6 +111,16 @@ class External(unittest.TestCase):
             self.assertEqual(self.run_program("verify", "a.gcode", "--support-gap", "0").returncode, 0)
             self.assertEqual(self.run_program("verify", "a.gcode", "--support-gap", "0", "--bed-only").returncode, expected)
 
+    def test_what_is_not_proved_is_said_quietly_too(self):
+        # The foot reaches so far that no way from the bed leads under the roof.
+        write_stl(self.table, box((-3, -3, 0), (3, 3, 0.4)) + box((-0.6, -0.6, 0.4), (0.6, 0.6, 1)) + box((-1.2, -1.2, 1), (1.2, 1.2, 1.4)))
+        for quiet in ([], ["--quiet"]):
+            done = self.run_program("generate", self.table, "-o", "a.gcode", "--support", "external", "--bed-only", *quiet)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("NOT PROVED", done.stderr if quiet else done.stdout)
+            self.assertIn("no --bed-only", done.stderr if quiet else done.stdout)
+        self.assertEqual(done.stdout, "")
+
     def test_a_second_tool_prints_the_supports(self):
         done = self.run_program("generate", self.table, "-o", "a.gcode", "--support", "external", "--support-extruder", "1", "--support-temperature", "190")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)

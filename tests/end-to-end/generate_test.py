@@ -226,7 +226,7 @@ class Generate(unittest.TestCase):
             self.assertEqual(done.returncode, 2)
             self.assertIn(said, done.stderr)
 
-    def test_quiet_says_what_is_not_proved(self):
+    def test_quiet_says_nothing_of_the_papers_gaps_and_no_output_is_said(self):
         done = self.run_program(CUBE, "--gaps", "paper", "--quiet")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         self.assertIn("nothing was written; -o", self.run_program(CUBE).stdout)
