@@ -39,17 +39,13 @@ double turned(const RegionBoundary& b, const BoundaryPiece& piece, const Point2&
     const auto angle = [](const Point2& u, const Point2& v) {
         return std::atan2(u.x * v.y - u.y * v.x, u.x * v.x + u.y * v.y);
     };
-    const auto from_p = [&](const Point2& q) {
-        least = std::min(least, std::hypot(q.x - p.x, q.y - p.y));
-        return Point2{q.x - p.x, q.y - p.y};
-    };
-    if (piece.turn == 0) {
-        const Point2 u = place(b, piece.from), v = place(b, piece.to);
+    const auto along = [&](const Point2& u, const Point2& v) {  // a straight step
         const double dx = v.x - u.x, dy = v.y - u.y, n = dx * dx + dy * dy;
         const double t = n > 0 ? std::clamp(((p.x - u.x) * dx + (p.y - u.y) * dy) / n, 0.0, 1.0) : 0;
         least = std::min(least, std::hypot(u.x + t * dx - p.x, u.y + t * dy - p.y));
-        return angle(from_p(u), from_p(v));
-    }
+        return angle({u.x - p.x, u.y - p.y}, {v.x - p.x, v.y - p.y});
+    };
+    if (piece.turn == 0) return along(place(b, piece.from), place(b, piece.to));
     const Point2 m = place(c.a);
     const double r = c.radius.get_d(), sweep = piece.angle * piece.turn;
     double from = 0;
@@ -61,7 +57,7 @@ double turned(const RegionBoundary& b, const BoundaryPiece& piece, const Point2&
         const auto at = [&](int k) {
             return Point2{m.x + r * std::cos(from + sweep * k / steps), m.y + r * std::sin(from + sweep * k / steps)};
         };
-        total += angle(from_p(at(i)), from_p(at(i + 1)));
+        total += along(at(i), at(i + 1));
     }
     return total;
 }
@@ -275,56 +271,112 @@ TEST_CASE("regions of 10^-20 and 10^-60 mm2 are traced", "[boundary]") {
     }
 }
 
-TEST_CASE("traced boundaries agree with the area by squares and the inside by rationals on random small layers",
-          "[boundary]") {
-    const Rational rho = q("1/2");
+TEST_CASE("hundreds of tracks on the same line in the air are one region", "[boundary]") {
+    PrintedLayer upper;
+    constexpr int n = 300;
+    const auto rational = [](int p, int q) {
+        Rational r(p, q);
+        r.canonicalize();
+        return r;
+    };
+    for (int k = 0; k < n; ++k)
+        upper.tracks.push_back(track(rational(k, 1000), 5, rational(10000 + k, 1000), 5, q("2/5")));
+    const PrintedVerdict v = traced(upper, printed({dot(0, 0, q("2/5"))}), q("1/5"));
+    REQUIRE(v.regions.size() == 1);
+    check_closed(v.regions[0].boundary);
+    CHECK(figures(v).components == 1);
+    CHECK(figures(v).loops == 1);
+    CHECK(figures(v).pieces == 4);
+    CHECK((v.regions[0].area_lo + v.regions[0].area_hi) / 2 ==
+          Approx((10 + 0.001 * (n - 1)) * 0.4 + M_PI * 0.04).epsilon(1e-9));
+}
+
+namespace {
+
+/// What has been compared, over all layers.
+struct Compared {
     double tightness = 0;
     int layers = 0, regions = 0, points = 0, near = 0, inside = 0, holes = 0;
+    void report(const char* name) const {
+        std::cout << name << ": " << regions << " regions traced, " << holes << " holes; " << points << " points, "
+                  << inside << " of them inside, " << near << " too near to a boundary; " << layers
+                  << " areas, by squares on average to within " << tightness / layers * 100 << " %\n";
+    }
+};
+
+void compare(const PrintedLayer& upper, const PrintedLayer& lower, Random& g, int squares, Compared& all) {
+    const Rational rho = q("1/2");
+    const PrintedVerdict v = traced(upper, lower, rho);
+    CHECK(v.supported == v.regions.empty());
+    for (const UnsupportedRegion& r : v.regions) {
+        check_closed(r.boundary);
+        for (const RegionComponent& component : r.boundary.components)
+            all.holes += static_cast<int>(component.loops.size()) - 1;
+        CHECK(r.area_hi - r.area_lo <= 1e-6 * r.area_hi);
+        ++all.regions;
+    }
+    if (v.regions.empty()) return;
+    const std::array<double, 2> area = area_by_squares(upper, lower, 0.5, 8, squares);
+    CHECK(figures(v).lo <= area[1] + 1e-9);
+    CHECK(figures(v).hi >= area[0] - 1e-9);
+    all.tightness += (area[1] - area[0]) / area[1];
+    ++all.layers;
+    for (int i = 0; i < 8; ++i) {
+        const double x = static_cast<double>(pick(g, -6000, 6000)) / 1000,
+                     y = static_cast<double>(pick(g, -6000, 6000)) / 1000;
+        int around = 0;
+        bool told = true;
+        for (const UnsupportedRegion& r : v.regions) {
+            const std::optional<int> n = winding(r.boundary, {x, y}, 0.02);
+            told = told && n;
+            around += n.value_or(0);
+        }
+        if (!told) {
+            ++all.near;
+            continue;
+        }
+        const bool out = is_witness({Rational(x), Rational(y)}, upper, lower, rho);
+        INFO(x << " " << y);
+        CHECK(around == (out ? 1 : 0));
+        ++all.points, all.inside += out;
+    }
+}
+
+}  // namespace
+
+TEST_CASE("traced boundaries agree with the area by squares and the inside by rationals on random small layers",
+          "[boundary]") {
+    Compared all;
     for (std::uint64_t seed = 0; seed < 20000; ++seed) {
         Random g(seed + 1000000);
         const Case c = random_case(g);
         const int grow = seed % 2 == 0 ? 0 : static_cast<int>(pick(g, -1, 1));
-        const PrintedLayer upper = layer_of(c.upper, false, 0), lower = layer_of(c.lower, true, tiny(30) * grow);
         INFO("seed " << seed << ", radii changed by " << grow << " 10^-30");
-        const PrintedVerdict v = traced(upper, lower, rho);
-        CHECK(v.supported == v.regions.empty());
-        for (const UnsupportedRegion& r : v.regions) {
-            check_closed(r.boundary);
-            for (const RegionComponent& component : r.boundary.components)
-                holes += static_cast<int>(component.loops.size()) - 1;
-            CHECK(r.area_hi - r.area_lo <= 1e-6 * r.area_hi);
-            ++regions;
-        }
-        if (v.regions.empty()) continue;
-        const std::array<double, 2> area = area_by_squares(upper, lower, 0.5, 8, seed % 20 == 0 ? 8000 : 400);
-        CHECK(figures(v).lo <= area[1] + 1e-9);
-        CHECK(figures(v).hi >= area[0] - 1e-9);
-        tightness += (area[1] - area[0]) / area[1];
-        ++layers;
-        for (int i = 0; i < 8; ++i) {
-            const double x = static_cast<double>(pick(g, -6000, 6000)) / 1000,
-                         y = static_cast<double>(pick(g, -6000, 6000)) / 1000;
-            int around = 0;
-            bool told = true;
-            for (const UnsupportedRegion& r : v.regions) {
-                const std::optional<int> n = winding(r.boundary, {x, y}, 0.02);
-                told = told && n;
-                around += n.value_or(0);
-            }
-            if (!told) {
-                ++near;
-                continue;
-            }
-            const bool out = is_witness({Rational(x), Rational(y)}, upper, lower, rho);
-            INFO(x << " " << y);
-            CHECK(around == (out ? 1 : 0));
-            ++points, inside += out;
-        }
+        compare(layer_of(c.upper, false, 0), layer_of(c.lower, true, tiny(30) * grow), g, seed % 20 == 0 ? 8000 : 400,
+                all);
     }
-    std::cout << "boundaries: " << regions << " regions traced, " << holes << " holes; " << points << " points, "
-              << inside << " of them inside, " << near << " too near to a boundary; " << layers
-              << " areas, by squares on average to within " << tightness / layers * 100 << " %\n";
-    CHECK(regions > 10000);
-    CHECK(inside > 1000);
-    CHECK(holes > 20);
+    all.report("boundaries");
+    CHECK(all.regions > 10000);
+    CHECK(all.inside > 1000);
+    CHECK(all.holes > 20);
+}
+
+TEST_CASE("the same where many tracks above lie over each other", "[boundary]") {
+    Compared all;
+    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+        Random g(seed + 2000000);
+        const Case c = random_case(g);
+        PrintedLayer upper = layer_of(c.upper, false, 0);
+        for (int k = 0; k < 6; ++k) {
+            const PrintedLayer more = layer_of(random_case(g).upper, false, 0);
+            upper.tracks.insert(upper.tracks.end(), more.tracks.begin(), more.tracks.end());
+        }
+        const int grow = seed % 2 == 0 ? 0 : static_cast<int>(pick(g, -1, 1));
+        INFO("seed " << seed << ", radii changed by " << grow << " 10^-30");
+        compare(upper, layer_of(c.lower, true, tiny(30) * grow), g, 1000, all);
+    }
+    all.report("boundaries of crowds");
+    CHECK(all.regions > 1000);
+    CHECK(all.inside > 300);
+    CHECK(all.holes > 20);
 }

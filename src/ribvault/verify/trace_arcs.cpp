@@ -31,6 +31,7 @@ private:
     Beside beside(int curve, const CurvePoint& p);
 
     TraceProblem& trace_;
+    std::vector<char> is_disc_;  ///< per curve: the circle of a dot
     std::vector<int> near_;
     std::vector<TraceArc> arcs_;
 };
@@ -52,7 +53,8 @@ int ArcFinder::side_of(const Solid& solid, const CurveUse* use, const CurvePoint
 }
 
 // Which of the two sides of the curve at p belong to the region, p being no vertex. Where p is on the boundary of a
-// stadium that does not have this curve, it is not in the closure of the region: else it would be a vertex.
+// stadium that does not have this curve, it is not in the closure of the region, or it is in the interior of M and that
+// boundary or this curve is M's alone: else it would be a vertex.
 Beside ArcFinder::beside(int curve, const CurvePoint& p) {
     PreparedTrack at;
     at.ax = at.bx = p.x, at.ay = at.by = p.y;
@@ -64,6 +66,7 @@ Beside ArcFinder::beside(int curve, const CurvePoint& p) {
     if (!in_part) return {};
     trace_.near(at, 4 * trace_.margin, near_);
     Beside above, below;
+    bool on_other = false;
     for (auto k = near_.rbegin(); k != near_.rend(); ++k) {  // K first: it often covers both sides
         const Solid& solid = trace_.solids[static_cast<std::size_t>(*k)];
         Beside& by = solid.above ? above : below;
@@ -71,11 +74,16 @@ Beside ArcFinder::beside(int curve, const CurvePoint& p) {
         const CurveUse* use = use_of(solid, curve);
         const int side = side_of(solid, use, p);
         if (side > 0) continue;
-        if (side == 0 && !use) return {};
+        if (side == 0 && !use) {
+            if (!solid.above) return {};
+            on_other = true;
+            continue;
+        }
         by.left = by.left || side < 0 || use->inside_left;
         by.right = by.right || side < 0 || !use->inside_left;
         if (below.left && below.right) return {};
     }
+    if (on_other && !(above.left && above.right)) return {};
     return {above.left && !below.left, above.right && !below.right};
 }
 
@@ -100,8 +108,7 @@ void ArcFinder::look_along(int curve, std::span<const int> vertices) {
     const bool line = trace_.curves[static_cast<std::size_t>(curve)].line;
     if (vertices.empty()) {
         // Of a circle all can be boundary only when it is a disc's: half of any other is inside its own stadium.
-        const Solid& solid = trace_.solids[static_cast<std::size_t>(trace_.owner[static_cast<std::size_t>(curve)])];
-        if (!line && solid.uses.size() == 1) look_at(curve, nullptr, nullptr, true);
+        if (is_disc_[static_cast<std::size_t>(curve)]) look_at(curve, nullptr, nullptr, true);
         return;
     }
     const std::vector<Place> places = order_along(trace_, curve, vertices);
@@ -115,6 +122,9 @@ std::vector<TraceArc> ArcFinder::find() {
         on[static_cast<std::size_t>(trace_.vertices[v].first)].push_back(static_cast<int>(v));
         on[static_cast<std::size_t>(trace_.vertices[v].second)].push_back(static_cast<int>(v));
     }
+    is_disc_.assign(trace_.curves.size(), 0);
+    for (const Solid& solid : trace_.solids)
+        if (solid.uses.size() == 1) is_disc_[static_cast<std::size_t>(solid.uses[0].curve)] = 1;
     for (std::size_t c = 0; c < on.size(); ++c) look_along(static_cast<int>(c), on[c]);
     return std::move(arcs_);
 }

@@ -124,8 +124,7 @@ void TraceProblem::near(const PreparedTrack& t, double radius, std::vector<int>&
 }
 
 std::array<double, 2> TraceProblem::approximate_mm(double x, double y) const {
-    const double scale = local.scale.get_d();
-    return {local.origin[0].get_d() + x / scale, local.origin[1].get_d() + y / scale};
+    return {origin_x + x / scale, origin_y + y / scale};
 }
 
 int TraceProblem::node_of(int vertex) {
@@ -161,6 +160,8 @@ void build_trace_problem(TraceProblem& trace, std::span<const int> tracks, std::
     build_local_problem(pair.upper, distinct(pair, tracks), below, square, trace.margin, trace.local);
 
     const LocalProblem& local = trace.local;
+    trace.scale = local.scale.get_d(), trace.origin_x = local.origin[0].get_d(),
+    trace.origin_y = local.origin[1].get_d();
     const auto add = [&](bool above, int track, const Stadium& stadium) {
         const auto k = static_cast<std::size_t>(track);
         Solid solid;

@@ -54,6 +54,7 @@ struct TraceProblem {
     std::vector<std::array<int, 2>> tangents;  ///< sorted: sides and the circles at their ends, which touch
     std::vector<TraceVertex> vertices;
     double margin = 0;                         ///< mm; more than every error of a double
+    double scale = 1, origin_x = 0, origin_y = 0;  ///< those of `local`, mm
 
     /// All solids that may come within `radius` of the centre line of `t` (mm).
     void near(const PreparedTrack& t, double radius, std::vector<int>& found) const;
@@ -71,7 +72,7 @@ private:
 void build_trace_problem(TraceProblem& trace, std::span<const int> tracks, std::vector<PreparedTrack> parts);
 
 /// Enters the vertices: at least all points of the closure of the region where two curves meet that have a piece of a
-/// stadium's boundary there.
+/// stadium's boundary there; in the interior of a stadium of M, where those of two stadiums of K meet.
 void find_trace_vertices(TraceProblem& trace);
 
 /// How many points the two curves have in common (0, 1 or 2; 0 for parallel lines and concentric circles). Exact.

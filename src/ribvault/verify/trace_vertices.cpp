@@ -1,6 +1,8 @@
 // Where the curves of a trace problem meet.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <tuple>
 
 #include "ribvault/verify/trace_problem.hpp"
@@ -13,68 +15,103 @@ bool overlap(const CurveUse& a, const CurveUse& b) {
     return a.lo_x <= b.hi_x && b.lo_x <= a.hi_x && a.lo_y <= b.hi_y && b.lo_y <= a.hi_y;
 }
 
-/// The curves near one part, and which of their meeting points may matter.
+/// The pieces of curves near the parts, and which of their meeting points may matter.
 class Finder {
 public:
     explicit Finder(TraceProblem& trace) : trace_(trace) {}
-    void look_at(const PreparedTrack& part);
+    void find();
 
 private:
-    struct Near {
-        int solid;
-        const CurveUse* use;
+    struct Met {
+        int count = 0;
+        std::array<std::optional<Located>, 2> points;
     };
-    void meet(const Near& p, const Near& q);
-    bool matters(const Located& v, const Near& p, const Near& q) const;
+    void mark();
+    void meet(const Solid& s, const CurveUse& u, const Solid& t, const CurveUse& v);
+    bool matters(const Located& v, const Solid& s, const Solid& t);
 
     TraceProblem& trace_;
-    const PreparedTrack* part_ = nullptr;
-    std::vector<int> solids_;
-    std::vector<Near> uses_;
+    std::vector<std::vector<char>> marked_;  ///< per solid and piece: near a part
+    std::map<std::array<int, 2>, Met> met_;  ///< curves of the solid that is looked at; many may have others in common
+    std::vector<int> near_;
 };
 
-void Finder::look_at(const PreparedTrack& part) {
-    part_ = &part;
-    const double slack = part.half + 4 * trace_.margin;
-    CurveUse window;
-    window.lo_x = std::min(part.ax, part.bx) - slack, window.hi_x = std::max(part.ax, part.bx) + slack;
-    window.lo_y = std::min(part.ay, part.by) - slack, window.hi_y = std::max(part.ay, part.by) + slack;
-    trace_.near(part, slack, solids_);
-    uses_.clear();
-    for (const int s : solids_)
-        for (const CurveUse& use : trace_.solids[static_cast<std::size_t>(s)].uses)
-            if (overlap(use, window)) uses_.push_back({s, &use});
-    for (std::size_t i = 0; i < uses_.size(); ++i)
-        for (std::size_t j = i + 1; j < uses_.size(); ++j)
-            if (uses_[i].use->curve != uses_[j].use->curve && overlap(*uses_[i].use, *uses_[j].use))
-                meet(uses_[i], uses_[j]);
+void Finder::mark() {
+    for (const Solid& s : trace_.solids) marked_.emplace_back(s.uses.size(), 0);
+    for (const PreparedTrack& part : trace_.parts) {
+        const double slack = part.half + 4 * trace_.margin;
+        CurveUse window;
+        window.lo_x = std::min(part.ax, part.bx) - slack, window.hi_x = std::max(part.ax, part.bx) + slack;
+        window.lo_y = std::min(part.ay, part.by) - slack, window.hi_y = std::max(part.ay, part.by) + slack;
+        trace_.near(part, slack, near_);
+        for (const int k : near_) {
+            const auto i = static_cast<std::size_t>(k);
+            for (std::size_t u = 0; u < marked_[i].size(); ++u)
+                if (overlap(trace_.solids[i].uses[u], window)) marked_[i][u] = 1;
+        }
+    }
 }
 
-// A point of the closure of the region is in the part or in another one, on both pieces, and in no stadium of K's
-// interior.
-bool Finder::matters(const Located& v, const Near& p, const Near& q) const {
-    const double scale = trace_.local.scale.get_d();
-    const auto [x, y] = trace_.approximate_mm((v.x.inf() + v.x.sup()) / 2, (v.y.inf() + v.y.sup()) / 2);
-    const double error = ((v.x.sup() - v.x.inf()) + (v.y.sup() - v.y.inf())) / scale + 4 * trace_.margin;
-    if (centre_distance(*part_, x, y) > part_->half + error) return false;
-    for (const int s : {p.solid, q.solid}) {
-        const PreparedTrack& t = trace_.solids[static_cast<std::size_t>(s)].approx;
-        if (std::abs(centre_distance(t, x, y) - t.half) > error) return false;
+void Finder::find() {
+    mark();
+    std::vector<int> others;
+    for (std::size_t i = 0; i < trace_.solids.size(); ++i) {
+        if (std::count(marked_[i].begin(), marked_[i].end(), 1) == 0) continue;
+        const Solid& s = trace_.solids[i];
+        trace_.near(s.approx, s.approx.half + 4 * trace_.margin, others);
+        met_.clear();
+        for (const int k : others) {
+            const auto j = static_cast<std::size_t>(k);
+            if (j > i) break;  // they ascend
+            const Solid& t = trace_.solids[j];
+            for (std::size_t u = 0; u < s.uses.size(); ++u)
+                for (std::size_t v = 0; v < (i == j ? u : t.uses.size()); ++v)
+                    if (marked_[i][u] && marked_[j][v] && s.uses[u].curve != t.uses[v].curve &&
+                        overlap(s.uses[u], t.uses[v]))
+                        meet(s, s.uses[u], t, t.uses[v]);
+        }
     }
-    return std::none_of(solids_.begin(), solids_.end(), [&](int s) {
-        const Solid& solid = trace_.solids[static_cast<std::size_t>(s)];
-        return !solid.above && centre_distance(solid.approx, x, y) < solid.approx.half - error;
+}
+
+// A point of the closure of the region is in a part, on both pieces, and in no stadium of K's interior. A point in the
+// interior of a stadium of M has only the borders of K's stadiums in that closure: their meeting points among
+// themselves are all that matters there.
+bool Finder::matters(const Located& v, const Solid& s, const Solid& t) {
+    const auto [x, y] = trace_.approximate_mm((v.x.inf() + v.x.sup()) / 2, (v.y.inf() + v.y.sup()) / 2);
+    const double error = ((v.x.sup() - v.x.inf()) + (v.y.sup() - v.y.inf())) / trace_.scale + 4 * trace_.margin;
+    for (const Solid* solid : {&s, &t})
+        if (std::abs(centre_distance(solid->approx, x, y) - solid->approx.half) > error) return false;
+    const auto within = [&, x = x, y = y](const PreparedTrack& p, double half) {
+        return centre_distance(p, x, y) < half - error;
+    };
+    const PrintedPair& pair = trace_.pair;
+    if (pair.grid.any_at(x, y, [&](int k) {
+            const PreparedTrack& below = pair.below[static_cast<std::size_t>(k)];
+            return within(below, below.half + pair.rho_approx);
+        }))
+        return false;
+    if ((s.above || t.above) && trace_.above_grid.any_at(x, y, [&](int k) {
+            const PreparedTrack& above = trace_.above[static_cast<std::size_t>(k)];
+            return within(above, above.half);
+        }))
+        return false;
+    trace_.part_grid.near(x, y, error, near_);
+    return std::any_of(near_.begin(), near_.end(), [&, x = x, y = y](int k) {
+        const PreparedTrack& part = trace_.parts[static_cast<std::size_t>(k)];
+        return centre_distance(part, x, y) <= part.half + error;
     });
 }
 
-void Finder::meet(const Near& p, const Near& q) {
-    const int first = std::min(p.use->curve, q.use->curve), second = std::max(p.use->curve, q.use->curve);
-    const int count = meeting_count(trace_, first, second);
-    if (p.solid == q.solid && count != 1) return;  // a stadium's own curves are its boundary where they touch only
-    for (int root = count == 2 ? -1 : 0; root <= 1 && count > 0; root += 2) {
-        TraceVertex v{first, second, root, located(trace_.local.problem, candidate_of(trace_, first, second, root)),
-                      -1,    0,      {}};
-        if (matters(v.at, p, q)) trace_.vertices.push_back(std::move(v));
+void Finder::meet(const Solid& s, const CurveUse& u, const Solid& t, const CurveUse& v) {
+    const int first = std::min(u.curve, v.curve), second = std::max(u.curve, v.curve);
+    const auto [known, fresh] = met_.try_emplace({first, second});
+    Met& met = known->second;
+    if (fresh) met.count = meeting_count(trace_, first, second);
+    if (&s == &t && met.count != 1) return;  // a stadium's own curves are its boundary where they touch only
+    for (int root = met.count == 2 ? -1 : 0; root <= 1 && met.count > 0; root += 2) {
+        std::optional<Located>& at = met.points[root > 0];
+        if (!at) at = located(trace_.local.problem, candidate_of(trace_, first, second, root));
+        if (matters(*at, s, t)) trace_.vertices.push_back({first, second, root, *at, -1, 0, {}});
     }
 }
 
@@ -113,8 +150,7 @@ const Vec<Rational>& approximation(TraceVertex& v, unsigned bits) {
 }
 
 void find_trace_vertices(TraceProblem& trace) {
-    Finder finder(trace);
-    for (const PreparedTrack& part : trace.parts) finder.look_at(part);
+    Finder(trace).find();
     const auto key = [](const TraceVertex& v) { return std::tuple{v.first, v.second, v.root}; };
     std::sort(trace.vertices.begin(), trace.vertices.end(),
               [&](const TraceVertex& v, const TraceVertex& w) { return key(v) < key(w); });
