@@ -56,6 +56,8 @@ void add_rules(CLI::App* command, VerifyJob& job) {
     add_number(reading, "--filament-diameter", job.filament_diameter,
                "for widths that the file does not give (default: as the file says, else 1.75)");
     add_number(reading, "--layer-height", job.layer_height, "where the file does not tell it");
+    reading->add_option("--infill-layers", job.infill_layers,
+                        "how many layers thick infill is, where the file does not tell its height (default 1)");
 }
 
 }  // namespace ribvault::cli

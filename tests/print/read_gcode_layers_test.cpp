@@ -230,6 +230,81 @@ TEST_CASE("a spiral vase has one layer a turn, not one a move", "[gcode]") {
     }
 }
 
+TEST_CASE("a vase that ends level less than a layer over its last turn: what is over that turn is one layer",
+          "[gcode]") {
+    // As CuraEngine ends them.
+    const auto vase = [](const std::string& header) {
+        std::string text = header + "M83\nG1 X0 Y0 Z.2\nG1 X10 E.3326\nG1 Y10 E.3326\nG1 X0 E.3326\nG1 Y0 E.3326\n";
+        const char* corners[] = {"X10 Y0", "X10 Y10", "X0 Y10", "X0 Y0"};
+        for (int k = 1; k <= 12; ++k)
+            text += std::string("G1 ") + corners[(k - 1) % 4] + " Z" +
+                    std::to_string(k <= 8 ? 0.2 + 0.05 * k : 0.6 + 0.025 * (k - 8)) + " E.3326\n";
+        for (int k = 0; k < 3; ++k)
+            text += std::string("G1 ") + corners[k] + " E" + std::to_string(0.3 - 0.1 * k) + "\n";
+        return read(text);
+    };
+    for (const char* header : {"", "; layer_height = 0.2\n"}) {
+        INFO(header);
+        const GcodePrint print = vase(header);
+        REQUIRE(print.layer_count == 4);
+        REQUIRE(print.layers.size() == 4);
+        for (std::size_t k = 1; k < 3; ++k) {
+            CHECK(to_double(print.layers[k].z) == Approx(0.2 * static_cast<double>(k + 1)));
+            CHECK(print.layers[k].tracks.size() == 4);
+            CHECK(print.layers[k].tracks[0].width == print.layers[0].tracks[0].width);
+        }
+        const GcodeLayer& end = print.layers[3];
+        CHECK(to_double(end.z) == Approx(0.7));
+        CHECK(height(end) == Approx(0.1));
+        CHECK(end.tracks.size() == 7);
+        CHECK(end.below == std::vector<std::size_t>{2});
+        // 0.4 mm at 0.2: between 0.2 and 0.1 mm thick at first.
+        CHECK(end.tracks[3].width == Approx(4e8 * 0.2 / 0.15).epsilon(0.01));
+    }
+}
+
+TEST_CASE("the first layer over a raft is pressed down by the second", "[gcode]") {
+    const std::string raft = "M83\nG1 Z.3\nG1 X10 E1\nG1 Z.5\nG1 X0 E1\n";
+    const std::string rest = "G1 Z1.18\nG1 X10 E1\nG1 Z1.38\nG1 X0 E1\n";
+    const GcodePrint print = read(";Layer height: 0.2\n" + raft + "G1 Z1\nG1 X10 E1\nG1 Z.98\nG1 X0 E1\n" + rest);
+    REQUIRE(print.layers.size() == 6);
+    CHECK(to_double(print.layers[2].z) == Approx(0.78));
+    CHECK(height(print.layers[2]) == Approx(0.28));
+    CHECK(print.layers[2].below == std::vector<std::size_t>{1});
+    CHECK(to_double(print.layers[3].z) == Approx(0.98));
+    CHECK(print.layers[3].below == std::vector<std::size_t>{2});
+    CHECK(print.layers_over_air == 0);
+    // Not so where the file says heights, where it goes down by more than that, or goes on elsewhere first.
+    const auto tops = [&](const std::string& text) {
+        return heights_of_layers(read(";Layer height: 0.2\n" + raft + text + rest));
+    };
+    CHECK(tops("G1 Z1\nG1 X10 E1\nG1 Z.9\nG1 X0 E1\n").contains("1"));
+    CHECK(tops("G1 Z1\nG1 X10 E1\nG1 Z.7\nG1 X5 E1\nG1 Z.98\nG1 X0 E1\n").contains("1"));
+    CHECK(tops("G1 Z.98\nG1 X10 E1\nG1 Z1\nG1 X0 E1\n").contains("1"));
+    CHECK(tops(";TYPE:a\n;HEIGHT:.2\nG1 Z1\nG1 X10 E1\nG1 Z.98\nG1 X0 E1\n").contains("1"));
+}
+
+TEST_CASE("infill of unsaid height that most layers leave out is told of, and as thick as the option says", "[gcode]") {
+    std::string text = ";FLAVOR:Marlin\n;Layer height: 0.2\n;Generated with Cura_SteamEngine 4.13.0\nM83\n";
+    for (int k = 1; k <= 8; ++k) {
+        text += ";TYPE:WALL-OUTER\nG1 Z" + std::to_string(0.2 * k) + "\nG1 X10 E1\nG1 X5 E1\n";
+        if (k % 2 == 0) text += ";TYPE:FILL\nG1 X0 E1\n";
+    }
+    const GcodePrint thin = read(text);
+    CHECK(thin.sparse_infill.feature == "FILL");
+    CHECK(thin.sparse_infill.apart == 2);
+    CHECK(thin.layers.size() == 8);
+    GcodeOptions options;
+    options.infill_layers = 2;
+    const GcodePrint thick = read_gcode(text, "text", options);
+    CHECK(thick.sparse_infill.apart == 1);
+    REQUIRE(thick.layers.size() == 12);
+    const GcodeLayer& infill = thick.layers[5];
+    CHECK(height(infill) == Approx(0.4));
+    CHECK(infill.below == std::vector<std::size_t>{1, 2});
+    CHECK(infill.tracks[0].width == Approx(static_cast<double>(thin.layers[3].tracks.back().width) / 2).epsilon(1e-3));
+}
+
 TEST_CASE("a seam that ramps up belongs to the layer it climbs to", "[gcode]") {
     const GcodePrint print = read(
         "M83\n;TYPE:Outer wall\n;HEIGHT:0.2\nG1 Z.2\nG1 X10 E1\nG1 Z.2\nG1 X0 Y0\nG1 X1 Z.3 E1\nG1 X2 Z.4 E1\nG1 X10 "

@@ -83,6 +83,8 @@ void check(const VerifyJob& job) {
     if (job.overlap && (*job.overlap < 0 || *job.overlap >= 1))
         refuse("--overlap is " + job.overlap->get_str() + "; it must be at least 0 and less than 1");
     if (job.min_area < 0) refuse("--min-area is " + job.min_area.get_str() + "; it must be 0 or more");
+    if (job.infill_layers < 1 || job.infill_layers > 100)
+        refuse("--infill-layers is " + std::to_string(job.infill_layers) + "; it must be from 1 to 100");
     if (job.threads < 0) refuse("--threads must be 0 (all processors) or more");
 }
 
@@ -116,6 +118,7 @@ private:
         GcodeOptions options;
         if (job_.filament_diameter) options.filament_diameter = job_.filament_diameter->get_d();
         if (job_.layer_height) options.layer_height = job_.layer_height->get_d();
+        options.infill_layers = job_.infill_layers;
         print_ = read_gcode(job_.gcode, options);
         report_.version = RIBVAULT_VERSION;
         report_.input_path = job_.gcode.string();
@@ -148,6 +151,11 @@ private:
             job_.warn(
                 std::to_string(print_.layers_over_air) +
                 " of the layers lie farther over the next lower one than a layer can be high: there is air below");
+        if (const auto& [feature, apart] = print_.sparse_infill; apart > 1)
+            job_.warn("layers with '" + feature + "' are " + std::to_string(apart) +
+                      " apart, and the file does not say how high it is; if it is so many layers thick, "
+                      "--infill-layers " +
+                      std::to_string(apart) + " says so");
         if (print_.widths_computed > 0 && report_.filament_source == "default")
             job_.warn(
                 "widths are computed from E with filament of 1.75 mm, as the file names none; --filament-diameter says "

@@ -20,6 +20,7 @@ struct VerifyJob {
     std::optional<Rational> nozzle;          ///< mm; default: the smallest that the file names, else 0.4
     std::optional<Rational> filament_diameter;  ///< mm; default: as the file says, else 1.75
     std::optional<Rational> layer_height;    ///< mm; where the file does not tell
+    int infill_layers = 1;                   ///< how thick infill is, in layers, where the file does not tell
     std::vector<std::string> features;       ///< judge only these: names or kinds, any case; empty: all
     std::vector<std::string> ignored_features;
     std::optional<Rational> longest_bridge;  ///< mm; default: bridges are not told apart

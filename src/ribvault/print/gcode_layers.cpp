@@ -3,41 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <numbers>
 #include <utility>
 
 namespace ribvault {
 namespace {
 
-constexpr double pooled_mm = 0.25;                 // shorter stretches share one flow
-constexpr std::int64_t pm_per_mm = 1000000000;     // 1e-9 mm
-constexpr Int128 decimal_per_pm = decimal_one / pm_per_mm;
+constexpr double pooled_mm = 0.25;  // shorter stretches share one flow
 constexpr std::int64_t widest = 100 * pm_per_mm;
-constexpr Int128 z_rounding = decimal_one / 200;       // 0.005 mm, as slicers round
-constexpr std::int64_t thick_first = pm_per_mm / 2;    // a layer on the bed may be as high
-
-std::int64_t in_pm(Int128 z) { return static_cast<std::int64_t>(z / decimal_per_pm); }
 
 GcodePoint flat(const std::array<Decimal, 3>& p) { return {p[0], p[1]}; }
-
-/// Per feature: whether its height is its layer's, whatever the file says.
-std::vector<char> with_layers_height(const std::vector<GcodeFeature>& features) {
-    std::vector<char> chosen;
-    for (const GcodeFeature& f : features)
-        chosen.push_back(f.kind == FeatureKind::bridge || f.name.find("roning") != std::string::npos);
-    return chosen;
-}
-
-/// What heights of layers are usual, and from where on they are none.
-struct UsualHeight {
-    std::int64_t layer, tallest;
-    UsualHeight(const std::vector<std::int64_t>& distances, const LayerHints& hints) {
-        std::vector<std::int64_t> sorted = distances;
-        std::sort(sorted.begin(), sorted.end());
-        layer = hints.layer_height.value_or(sorted.empty() ? pm_per_mm / 5 : sorted[(sorted.size() - 1) / 2]);
-        tallest = 5 * std::max(2 * layer, static_cast<std::int64_t>(hints.nozzle.value_or(0) * pm_per_mm)) / 4;
-    }
-};
 
 }  // namespace
 
@@ -49,14 +25,14 @@ std::int64_t LayerCollector::width_of(const Extrusion& e) {
     }
     const bool same = flow_open_ && flows_.back().feature == e.feature && flows_.back().tool == e.tool &&
                       flows_.back().volumetric == e.volumetric && flows_.back().length < pooled_mm;
-    if (!same) flows_.push_back({0, 0, e.volumetric, e.tool, e.feature});
+    if (!same) flows_.push_back({0, 0, {}, e.volumetric, e.tool, e.feature});
     flow_open_ = true;
     flows_.back().length += e.length_mm;
     flows_.back().pushed += e.pushed;
     return -static_cast<std::int64_t>(flows_.size());
 }
 
-GcodeLayer& LayerCollector::group(Key key) {
+GcodeLayer& LayerCollector::group(LayerKey key) {
     if (last_group_ == nullptr || key != last_key_) {
         last_group_ = &groups_[key];
         last_key_ = key;
@@ -129,12 +105,7 @@ void LayerCollector::file_climbs(const LayerHints& hints) {
     std::vector<Int128> level;
     for (const auto& [key, layer] : groups_)
         if (level.empty() || level.back() != key.z) level.push_back(key.z);
-    Int128 step = 0;  // of layers that no level extrusion tells of
-    if (climbing_.front().extrusion.height) step = *climbing_.front().extrusion.height * decimal_per_pm;
-    else if (hints.layer_height) step = *hints.layer_height * decimal_per_pm;
-    else if (level.size() >= 2) step = level.back() - level[level.size() - 2];
-    else if (level.size() == 1) step = level.back();
-    if (step <= 0) step = decimal_one / 5;
+    const std::int64_t usual = usual_height(groups_, hints);
     const auto top_of = [](const Climb& c) { return std::max(c.extrusion.from[2].value, c.extrusion.to[2].value); };
     std::map<std::uint64_t, Int128> tops;  // of paths
     for (const Climb& c : climbing_) {
@@ -142,103 +113,27 @@ void LayerCollector::file_climbs(const LayerHints& hints) {
         if (!is_new) at->second = std::max(at->second, top_of(c));
     }
     for (const Climb& c : climbing_) {
-        const Int128 top = top_of(c);
+        const std::int64_t height = std::max<std::int64_t>(1, c.extrusion.height.value_or(usual));
+        const Int128 top = top_of(c), step = height * decimal_per_pm;
         const auto above = std::lower_bound(level.begin(), level.end(), top);
         const Int128 under = above == level.begin() ? 0 : *std::prev(above);
-        Int128 z = under + std::max<Int128>(1, (top - under + step - 1) / step) * step;
-        if (above != level.begin() && tops[c.path] - under <= z_rounding)
+        const Int128 bottom = under + std::max<Int128>(0, (top - under - 1) / step) * step;
+        Int128 z = bottom + step;
+        if (above != level.begin() && tops[c.path] - under <= z_rounding) {
             z = under;  // the path as a whole climbs no higher than slicers round
-        else if (above != level.end() && (*above - top < step || z > *above))
+        } else if (above != level.end() && z + z_rounding >= *above) {
             z = *above;
+            // A vase's last turn ends level before it has climbed a layer: as thick as one at first, then thinner.
+            if (c.width < 0 && z - bottom < step)
+                flows_[static_cast<std::size_t>(-c.width - 1)].height = (height + in_pm(z - bottom)) / 2;
+        }
         file(group({z, c.extrusion.height.value_or(0)}), c.extrusion, c.width, c.continues);
     }
     climbing_.clear();
     level_from_ = 0;
 }
 
-void LayerCollector::merge_rounded() {
-    // Where the file says heights, these tell what is below.
-    if (std::any_of(groups_.begin(), groups_.end(), [](const auto& group) { return group.first.height != 0; })) return;
-    Groups merged;
-    Int128 z = 0;
-    for (auto& [key, layer] : groups_) {
-        if (merged.empty() || key.z - z > z_rounding) z = key.z;
-        GcodeLayer& to = merged[{z, key.height}];
-        if (to.tracks.empty()) {
-            to = std::move(layer);
-            continue;
-        }
-        const auto first = static_cast<std::uint32_t>(to.points.size());
-        to.points.insert(to.points.end(), layer.points.begin(), layer.points.end());
-        for (GcodeTrack& track : layer.tracks) track.a += first, track.b += first, to.tracks.push_back(track);
-    }
-    groups_ = std::move(merged);
-}
-
-void LayerCollector::resolve_heights(GcodePrint& print, const LayerHints& hints) {
-    Groups resolved;
-    const std::vector<char> of_layer = with_layers_height(print.features);
-    std::vector<std::int64_t> all;  // distances of tops
-    for (std::int64_t lower = 0; const auto& [key, layer] : groups_)
-        if (const std::int64_t top = in_pm(key.z); top > lower) all.push_back(top - std::exchange(lower, top));
-    const UsualHeight heights(all, hints);
-    std::vector<std::int64_t> distances;  // heights that are the distance to the next lower layer
-    std::int64_t lower = 0;               // top of the next lower z
-    for (auto at = groups_.begin(); at != groups_.end();) {
-        const Int128 z = at->first.z;
-        const std::int64_t top = in_pm(z);
-        auto end = at;
-        std::int64_t said = 0;  // the height of most tracks at this z, bridges and ironing apart
-        std::size_t most = 0;
-        for (; end != groups_.end() && end->first.z == z; ++end) {
-            if (end->first.height == 0) continue;
-            const auto count =
-                static_cast<std::size_t>(std::count_if(end->second.tracks.begin(), end->second.tracks.end(),
-                                                       [&](const GcodeTrack& t) { return !of_layer[t.feature]; }));
-            if (count > most) most = count, said = end->first.height;
-        }
-        std::int64_t usual = said;
-        if (usual == 0 && resolved.empty())
-            usual = hints.first_layer_height.value_or(
-                top <= std::max(thick_first, 2 * hints.layer_height.value_or(top)) ? top : *hints.layer_height);
-        if (usual == 0) distances.push_back(usual = top - lower);
-        // What reaches past lower tops, as combined infill does, has no air in it.
-        const auto is_air = [&](std::int64_t height) {
-            return !resolved.empty() && height > heights.tallest && height <= top - lower + in_pm(z_rounding);
-        };
-        if (is_air(usual)) usual = heights.layer, ++print.layers_over_air;
-        if (usual <= 0) usual = hints.layer_height.value_or(pm_per_mm / 5);  // at or below the bed
-        for (; at != end; ++at) {
-            GcodeLayer& from = at->second;
-            for (std::size_t k = 0; k < from.tracks.size(); ++k) {
-                const GcodeTrack& t = from.tracks[k];
-                const bool is_said = !of_layer[t.feature] && at->first.height != 0;
-                const std::int64_t height = is_said && !is_air(at->first.height) ? at->first.height : usual;
-                GcodeLayer& to = resolved[{z, height}];
-                if (to.points.empty() || to.points.back() != from.points[t.a]) to.points.push_back(from.points[t.a]);
-                GcodeTrack moved = t;
-                moved.a = moved.b = static_cast<std::uint32_t>(to.points.size() - 1);
-                if (t.a != t.b) {
-                    to.points.push_back(from.points[t.b]);
-                    ++moved.b;
-                }
-                moved.continues = t.continues && !to.tracks.empty() && to.tracks.back().b == moved.a;
-                to.tracks.push_back(moved);
-            }
-            from = {};
-        }
-        lower = top;
-    }
-    groups_ = std::move(resolved);
-    for (std::size_t k = 0; k < distances.size(); ++k) {
-        const std::int64_t before = k > 0 ? distances[k - 1] : 0,
-                           after = k + 1 < distances.size() ? distances[k + 1] : 0;
-        print.thin_layers += 2 * distances[k] <= std::min(before, after);
-    }
-}
-
 void LayerCollector::resolve_widths(GcodePrint& print, GcodeLayer& layer, const LayerHints& hints) const {
-    const double height = static_cast<double>(layer.height) * 1e-9;
     for (GcodeTrack& t : layer.tracks) {
         if (t.width > 0) {
             ++print.widths_written;
@@ -246,6 +141,7 @@ void LayerCollector::resolve_widths(GcodePrint& print, GcodeLayer& layer, const 
         }
         ++print.widths_computed;
         const Flow& flow = flows_[static_cast<std::size_t>(-t.width - 1)];
+        const double height = static_cast<double>(flow.height.value_or(layer.height)) * 1e-9;
         const double diameter =
             hints.filaments[std::min(static_cast<std::size_t>(flow.tool), hints.filaments.size() - 1)];
         const double area = flow.volumetric || hints.volumetric ? 1 : std::numbers::pi / 4 * diameter * diameter;
@@ -260,8 +156,7 @@ void LayerCollector::finish(GcodePrint& print, const LayerHints& hints) {
     last_group_ = nullptr;
     file_climbs(hints);
     last_group_ = nullptr;
-    merge_rounded();
-    resolve_heights(print, hints);
+    resolve_heights(groups_, print, hints);
     int number = -1;
     Int128 z = 0;
     for (auto& [key, layer] : groups_) {

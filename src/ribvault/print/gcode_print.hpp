@@ -65,6 +65,11 @@ struct GcodePrint {
     /// them.
     int thin_layers = 0;
     int layers_over_air = 0;  ///< of those above that: nothing is so far below them that they cannot be as high
+    struct SparseInfill {
+        std::string feature;  ///< whose height the file does not say
+        int apart = 1;        ///< so many layers are most of those apart that it is in; 1: there is none such
+    };
+    SparseInfill sparse_infill;                             ///< farther apart than it is thick
     std::uint64_t widths_written = 0, widths_computed = 0;  ///< tracks whose width stands in a comment; comes from E
 };
 

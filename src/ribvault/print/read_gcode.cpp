@@ -65,8 +65,8 @@ public:
         print_.program = comments_.program;
         print_.nozzles = comments_.nozzles;
         print_.filaments = comments_.filaments;
-        LayerHints hints{
-            comments_.layer_height, comments_.first_layer_height, {}, comments_.filaments, comments_.volumetric};
+        LayerHints hints{comments_.layer_height, comments_.first_layer_height, {},
+                         comments_.filaments,    comments_.volumetric,         options_.infill_layers};
         if (!comments_.nozzles.empty())
             hints.nozzle = *std::max_element(comments_.nozzles.begin(), comments_.nozzles.end());
         if (options_.filament_diameter) hints.filaments = {*options_.filament_diameter};

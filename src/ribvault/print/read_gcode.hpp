@@ -12,6 +12,7 @@ namespace ribvault {
 struct GcodeOptions {
     std::optional<double> filament_diameter;    ///< mm; instead of what the file says (1.75 where neither does)
     std::optional<double> layer_height;         ///< mm; where the file does not say
+    int infill_layers = 1;                      ///< how thick infill is whose height the file does not say, in layers
 };
 
 /// Reads PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio, CuraEngine, Slic3r, Simplify3D, ribvault and plain G-code.
