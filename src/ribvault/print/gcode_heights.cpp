@@ -58,7 +58,8 @@ void press_down(LayerGroups& groups, std::int64_t usual) {
     for (auto at = groups.begin(); at != groups.end(); ++at) {
         order.push_back({UINT32_MAX, 0, at});
         for (const GcodeTrack& t : at->second.tracks)
-            order.back().first = std::min(order.back().first, t.line), order.back().last = std::max(order.back().last, t.line);
+            order.back().first = std::min(order.back().first, t.line),
+            order.back().last = std::max(order.back().last, t.line);
     }
     std::sort(order.begin(), order.end(), [](const Printed& p, const Printed& q) { return p.first < q.first; });
     const Int128 layer = usual * decimal_per_pm;
@@ -66,7 +67,8 @@ void press_down(LayerGroups& groups, std::int64_t usual) {
         const auto high = order[k].group, low = order[k + 1].group;
         const Int128 drop = high->first.z - low->first.z, pressed = low->first.z - layer;
         if (drop <= 0 || 2 * drop >= layer || order[k].last >= order[k + 1].first) continue;
-        if (std::prev(high) != low || (low != groups.begin() && std::prev(low)->first.z + z_rounding >= pressed)) continue;
+        if (std::prev(high) != low || (low != groups.begin() && std::prev(low)->first.z + z_rounding >= pressed))
+            continue;
         auto node = groups.extract(high);
         node.key() = {pressed, 0};
         groups.insert(std::move(node));
