@@ -312,35 +312,6 @@ TEST_CASE("an empty layer is a picture, too") {
     CHECK(picture.height > 0);
 }
 
-TEST_CASE("a contact sheet holds all layers in one frame of the bed") {
-    std::vector<LayerDrawing> drawings;
-    for (int i = 0; i < 5; ++i) {
-        Slice slice;
-        slice.layer = i;
-        if (i != 3) slice.rounded = {square(0, (10 + i) * mm)};
-        drawings.push_back(draw_layer(slice, {}, {}, {}, Settings()));
-    }
-    pugi::xml_document document;
-    REQUIRE(document.load_string(overview_svg(drawings, 2).c_str()));
-    const pugi::xml_node svg = document.child("svg");
-    std::vector<Place> shifts;
-    for (const pugi::xml_node group : svg.children("g")) {
-        Place p{};
-        REQUIRE(std::sscanf(group.attribute("transform").value(), "translate(%lf %lf)", &p.x, &p.y) == 2);
-        shifts.push_back(p);
-    }
-    REQUIRE(shifts.size() == 5);
-    CHECK(shifts[1].y == shifts[0].y);
-    CHECK(shifts[2].x == shifts[0].x);
-    CHECK(shifts[1].x > shifts[0].x + 14);
-    CHECK(shifts[2].y > shifts[0].y + 14);
-    std::size_t captions = 0;
-    for (const pugi::xml_node text : svg.children("text"))
-        captions += std::string(text.child_value()).starts_with("layer ");
-    CHECK(captions == 5);
-    CHECK(document.load_string(overview_svg({}, 3).c_str()));
-}
-
 TEST_CASE("numbers take as few characters as they can and never lose a micrometre") {
     CHECK(svg_number(0) == "0");
     CHECK(svg_number(-0.0004) == "0");

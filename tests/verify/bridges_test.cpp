@@ -71,13 +71,12 @@ TEST_CASE("what is left without a bridge is held up and lies on the track", "[br
         const PrintedVerdict verdict = verify_printed(upper, piers(), radius, lines);
         const auto found = find_bridges(upper, continues, {}, verdict, 6);
         REQUIRE(found.size() == 1);
-        const WithoutBridges left = take_out_bridges(upper, continues, verdict, found);
-        REQUIRE(left.layer.tracks.size() == 2);
-        CHECK(left.origin == (joined ? std::vector<std::size_t>{0, 2} : std::vector<std::size_t>{0, 0}));
-        CHECK(verify_printed(left.layer, piers(), radius).supported);
-        CHECK(left.layer.tracks[0].a == upper.tracks[0].a);
-        CHECK(left.layer.tracks[0].b[0].get_d() == Approx(2.4 - 0.4));  // one width less than what is held up
-        CHECK(left.layer.tracks[1].a[0].get_d() == Approx(7.6 + 0.4));
-        CHECK(left.layer.tracks[1].b == upper.tracks.back().b);
+        const PrintedLayer left = take_out_bridges(upper, continues, verdict, found);
+        REQUIRE(left.tracks.size() == 2);
+        CHECK(verify_printed(left, piers(), radius).supported);
+        CHECK(left.tracks[0].a == upper.tracks[0].a);
+        CHECK(left.tracks[0].b[0].get_d() == Approx(2.4 - 0.4));  // one width less than what is held up
+        CHECK(left.tracks[1].a[0].get_d() == Approx(7.6 + 0.4));
+        CHECK(left.tracks[1].b == upper.tracks.back().b);
     }
 }

@@ -1,12 +1,22 @@
 // Nearest segment to a point: a static tree of boxes with exact comparisons at its leaves.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "ribvault/exact/predicates.hpp"
 
 namespace ribvault {
+
+/// Whether the boxes of two segments are at most `reach` apart in both coordinates.
+inline bool boxes_near(const Segment& s, const Segment& t, double reach) {
+    const auto apart = [reach](Unit a, Unit b, Unit c, Unit d) {
+        return static_cast<double>(std::min(c, d) - std::max(a, b)) > reach ||
+               static_cast<double>(std::min(a, b) - std::max(c, d)) > reach;
+    };
+    return !apart(s.a.x, s.b.x, t.a.x, t.b.x) && !apart(s.a.y, s.b.y, t.a.y, t.b.y);
+}
 
 /// A packed box tree over segments. Lighter than a segment Voronoi diagram and held against one in the tests: both give
 /// the exact nearest segment.

@@ -8,8 +8,6 @@
 namespace ribvault {
 namespace {
 
-__extension__ typedef unsigned __int128 UInt128;
-
 mpz_class to_mpz(Int128 v) {
     const bool negative = v < 0;
     const UInt128 u = negative ? -static_cast<UInt128>(v) : static_cast<UInt128>(v);

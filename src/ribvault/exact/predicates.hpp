@@ -1,11 +1,10 @@
 // Predicates on lattice points. Each is exact: machine arithmetic where its bound decides, wide integers otherwise.
 #pragma once
 
+#include "ribvault/exact/int128.hpp"
 #include "ribvault/exact/lattice.hpp"
 
 namespace ribvault {
-
-__extension__ typedef __int128 Int128;  // not part of ISO C++; g++ and clang have it on every 64-bit platform
 
 /// Twice the signed area of the triangle (a, b, c): positive when c lies to the left of a -> b. Exact: coordinate
 /// differences stay below 2^31 (lattice_bound), so both products and their difference fit 64 bits.

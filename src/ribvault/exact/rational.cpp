@@ -49,6 +49,24 @@ Rational parse_decimal(std::string_view text, std::string_view whole, std::strin
 
 }  // namespace
 
+Rational power_of_two(int exponent) {
+    Rational r(1);
+    if (exponent >= 0)
+        mpq_mul_2exp(r.get_mpq_t(), r.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+    else
+        mpq_div_2exp(r.get_mpq_t(), r.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+    return r;
+}
+
+Rational rounded_down(const Rational& a, unsigned bits) {
+    mpz_class n = a.get_num(), q;
+    n <<= bits;
+    mpz_fdiv_q(q.get_mpz_t(), n.get_mpz_t(), a.get_den_mpz_t());
+    Rational r(q);
+    mpq_div_2exp(r.get_mpq_t(), r.get_mpq_t(), bits);
+    return r;
+}
+
 Rational parse_rational(std::string_view text, std::string_view what) {
     const std::size_t slash = text.find('/');
     if (slash == std::string_view::npos) return parse_decimal(text, text, what);

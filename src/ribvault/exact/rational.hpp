@@ -12,6 +12,12 @@ namespace ribvault {
 
 using Rational = mpq_class;
 
+/// 2^exponent.
+Rational power_of_two(int exponent);
+
+/// The greatest multiple of 2^-bits that is no greater.
+Rational rounded_down(const Rational& a, unsigned bits);
+
 /// "0.2", "-3", "1e-3" or a fraction "1/2.4" as the exact rational it denotes.
 /// Throws Error (usage) naming `what` when the text is not a number.
 Rational parse_rational(std::string_view text, std::string_view what);

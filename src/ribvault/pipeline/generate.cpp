@@ -1,8 +1,6 @@
 #include "ribvault/pipeline/generate.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <deque>
 #include <memory>
 
@@ -13,50 +11,21 @@
 #include "ribvault/pipeline/check_bed.hpp"
 #include "ribvault/pipeline/check_outputs.hpp"
 #include "ribvault/pipeline/choose_supports.hpp"
+#include "ribvault/pipeline/finish_layer.hpp"
 #include "ribvault/pipeline/layer_spool.hpp"
 #include "ribvault/pipeline/outside_room.hpp"
-#include "ribvault/pipeline/picture_folder.hpp"
 #include "ribvault/pipeline/prove_layer.hpp"
 #include "ribvault/pipeline/shape_outputs.hpp"
-#include "ribvault/pipeline/sweep_layers.hpp"
 #include "ribvault/pipeline/thread_limit.hpp"
 #include "ribvault/print/gcode_header.hpp"
 #include "ribvault/print/gcode_text.hpp"
-#include "ribvault/print/order_paths.hpp"
-#include "ribvault/print/skirt.hpp"
 #include "ribvault/print/thumbnail.hpp"
 #include "ribvault/print/write_gcode.hpp"
-#include "ribvault/report/layer_shapes.hpp"
-#include "ribvault/report/layer_svg.hpp"
 #include "ribvault/report/number_text.hpp"
 #include "ribvault/report/write_mesh.hpp"
-#include "ribvault/vault/wall_stability.hpp"
-#include "ribvault/verify/gap_check.hpp"
 
 namespace ribvault {
 namespace {
-
-using Time = std::chrono::steady_clock;
-
-double seconds_since(Time::time_point start) { return std::chrono::duration<double>(Time::now() - start).count(); }
-
-/// What one layer adds to the outputs; computed concurrently, collected in order.
-struct LayerOutput {
-    LayerReport report;
-    LayerText text;
-    TravelMap map;
-    Box box;  ///< of the tracks' centre lines
-    PrintVerdict print_above;  ///< of the layer above over this one
-    struct OverGap {
-        int layer;
-        LayerVerdict verdict;
-        PrintVerdict print;
-    };
-    std::vector<OverGap> over_gap;  ///< of the layers that external supports of this one hold up through a gap
-    std::string walls;
-    std::optional<AtomicFile> picture;
-    std::string shapes, packed;  ///< for the layers file; for the run page
-};
 
 class Run {
 public:
@@ -66,8 +35,13 @@ public:
         job_.settings.check();
         job_.tracks.check(job_.settings.nozzle);
         check_printer(job_.printer);
-        check_outputs({job_.model}, {{"--output", job_.gcode}, {"--report", job_.report}, {"--mesh", job_.mesh},
-                                     {"--layers", job_.layers}, {"--html", job_.html}});
+        std::vector<std::filesystem::path> inputs = job_.settings_files;
+        inputs.push_back(job_.model);
+        check_outputs(inputs, {{"--output", job_.gcode},
+                               {"--report", job_.report},
+                               {"--mesh", job_.mesh},
+                               {"--layers", job_.layers},
+                               {"--html", job_.html}});
         report_.version = RIBVAULT_VERSION;
         report_.input_path = job_.model.string();
         report_.tracks = job_.tracks;
@@ -87,8 +61,9 @@ public:
         const OutsideRoom* outside = room ? &*room : nullptr;
         choose(slicer, outside);
 
-        const auto finish = [&](const SweptLayer& layer, const LayerMaterial* below) {
-            return std::shared_ptr<void>(finish_layer(slicer, layer, below));
+        LayerFinisher finisher(slicer, job_, folder_ ? &*folder_ : nullptr);
+        const auto finish = [&](const SweptLayer& layer, const LayerMaterial* below) -> std::shared_ptr<void> {
+            return std::make_shared<LayerOutput>(finisher.finish(layer, below));
         };
         const auto collect = [&](const SweptLayer&, std::shared_ptr<void> output) {
             collect_layer(std::static_pointer_cast<LayerOutput>(output));
@@ -99,8 +74,8 @@ public:
             sweep_layers(slicer, job_.settings, job_.tracks, job_.threads, finish, collect, job_.stop, outside, made));
         times_.erase("finish");  // its parts are counted one by one
         while (!waiting_.empty()) join();
-        times_["proof"] = 1e-9 * static_cast<double>(proof_), times_["paths"] = 1e-9 * static_cast<double>(paths_);
-        times_["pictures"] = 1e-9 * static_cast<double>(pictures_);
+        times_.merge(finisher.seconds());
+        times_["paths"] += joining_.seconds();
         write_outputs();
         return std::move(report_);
     }
@@ -174,115 +149,6 @@ private:
         job_.progress(0, total_);
     }
 
-    std::shared_ptr<LayerOutput> finish_layer(const Slicer& slicer, const SweptLayer& swept,
-                                              const LayerMaterial* below) {
-        const Settings& s = job_.settings;
-        const LayerMaterial& layer = swept.material;
-        auto output = std::make_shared<LayerOutput>();
-        LayerReport& r = output->report;
-
-        auto from = Time::now();
-        r.verdict.layer = layer.layer;
-        r.verdict.supported = true;  // layer 0 lies on the bed
-        if (below) r.verdict = prove_layer(layer, *below, s);
-        if (s.stands_off()) check_gap(swept, r);
-        PrintVerdict print_over_gap;
-        for (const PrintPart& part : swept.held.parts)
-            add_verdict(part.judgement.verdict(), part.over_gap ? print_over_gap : output->print_above);
-        for (const OverGap& over : swept.over_gap)
-            output->over_gap.push_back(
-                {over.upper.layer, prove_over_gap(over, layer, s), over.over_bed ? PrintVerdict() : print_over_gap});
-        proof_ += (Time::now() - from).count();
-
-        from = Time::now();
-        const LayerPaths paths = order_paths(swept.held.plan, layer.slice->rounded, job_.tracks.alternate);
-        Region air = layer.cavity->region;
-        if (layer.outside) air.insert(air.end(), layer.outside->region.begin(), layer.outside->region.end());
-        output->map = TravelMap(layer.slice->rounded, air, paths);
-        const std::vector<ToolPath> beside = layer.layer == 0
-                                                 ? skirt_and_brim(layer.slice->rounded, s, job_.tracks,
-                                                                  s.outside() ? *layer.tracks : std::vector<Segment>())
-                                                 : std::vector<ToolPath>();
-        output->text = gcode_layer(paths, output->map, s, job_.printer, beside);
-        for (const std::vector<ToolPath>* all : {&beside, &paths.paths})
-            for (const ToolPath& path : *all)
-                for (Point p : path.points) output->box.add(p);
-        paths_ += (Time::now() - from).count();
-
-        const double height = to_mm(s.height_of(layer.layer));
-        const PrintStatistics& p = output->text.statistics;
-        r.layer = layer.layer;
-        r.z_mm = slicer.plane_height(layer.layer).get_d();
-        r.shell_area_mm2 = area_to_mm2(signed_area(layer.slice->rounded) - signed_area(layer.cavity->region));
-        r.shell_volume_mm3 = r.shell_area_mm2 * height;
-        for (const Segment& track : *layer.tracks) r.support_length_mm += length(track) / units_per_mm;
-        r.support_length_bound_mm = swept.length_bound / units_per_mm;
-        const auto of = [](TrackKind kind) { return static_cast<std::size_t>(kind); };
-        r.support_printed_length_mm = p.length[of(TrackKind::support)];
-        r.support_volume_mm3 = p.volume[of(TrackKind::support)];
-        r.external_support_printed_length_mm = p.length[of(TrackKind::external_support)];
-        r.external_support_volume_mm3 = p.volume[of(TrackKind::external_support)];
-        r.gaps = paths.gaps;
-        r.closed_gaps = swept.held.closed_gaps;
-        r.patches = swept.held.patches;
-        r.patch_length_mm = to_mm(swept.held.patch_length);
-        r.perimeter_length_mm = p.length[of(TrackKind::outer_perimeter)] + p.length[of(TrackKind::inner_perimeter)];
-        r.cover_length_mm = p.length[of(TrackKind::cover)];
-        r.thin_wall_length_mm = p.length[of(TrackKind::thin_wall)];
-        r.thin_places = paths.thin_places;
-        r.thin_area_mm2 = area_to_mm2(paths.thin_area);
-        r.unfilled_area_mm2 = area_to_mm2(paths.unfilled_area);
-        r.filament_mm = p.filament;
-        for (double volume : p.volume) r.extruded_mm3 += volume;
-        r.trees = static_cast<int>(num_vertices(swept.forest) - num_edges(swept.forest));
-        r.wide_trees = wide_trees(swept.forest);
-        r.braces = swept.braces;
-        const SlenderPlace worst = most_slender(swept.forest, s);
-        r.slenderness = worst.ratio, r.slender_at = {to_mm(worst.at.x), to_mm(worst.at.y)};
-        r.slender_standing_mm = worst.standing / units_per_mm, r.slender_to_root_mm = worst.to_root / units_per_mm;
-        r.closings = layer.closings;
-        r.empty = paths.paths.empty();
-
-        from = Time::now();
-        if (job_.svg) {
-            output->picture.emplace(folder_->picture(layer.layer));
-            const bool overhangs = r.verdict.external && !s.outside();
-            output->picture->write(layer_svg(*layer.slice, layer.cavity->region, swept.forest, swept.unsupported, s,
-                                             overhangs ? below->slice.get() : nullptr));
-            output->picture->finish();
-        }
-        if (job_.mesh) {
-            const Unit top = s.top_of(layer.layer);
-            append_walls(swept.forest, top - s.height_of(layer.layer), top, s, output->walls);
-        }
-        if (job_.layers || job_.html) {
-            const LayerShapes shapes =
-                shapes_of(*layer.slice, layer.cavity->region, swept.forest, swept.unsupported, swept.held.patch_tracks);
-            if (job_.layers) output->shapes = shapes_json(shapes);
-            if (job_.html) output->packed = packed_shapes(shapes);
-        }
-        pictures_ += (Time::now() - from).count();
-        return output;
-    }
-
-    /// What is extruded outside keeps g off the object on this layer and on those of the gap above it, or the layer is
-    /// not proved. Where it does not keep g off patches of the object, the report says so.
-    void check_gap(const SweptLayer& layer, LayerReport& report) const {
-        const Settings& s = job_.settings;
-        const std::vector<Segment> outside = segments_of(layer.held.plan, TrackKind::external_support);
-        std::optional<Segment> near =
-            find_too_near(*layer.material.slice->exact, outside, s.support_gap + s.nozzle / 2);
-        for (const auto& above : layer.material.slices_above)
-            if (!near) near = find_too_near(*above->exact, outside, s.support_gap + s.nozzle / 2);
-        report.patch_in_gap = std::any_of(layer.patches.begin(), layer.patches.end(), [&](const auto& patches) {
-            return find_too_near(*patches, outside, s.support_gap + s.nozzle).has_value();
-        });
-        if (!near) return;
-        report.verdict.supported = false;
-        report.verdict.malformed = "the external support at (" + std::to_string(to_mm(near->a.x)) + ", " +
-                                   std::to_string(to_mm(near->a.y)) + ") mm is nearer to the object than the gap";
-    }
-
     /// Layers come from the top. Each waits for the one below it, to which it is joined then, and for that whose
     /// external supports hold it up.
     void collect_layer(std::shared_ptr<LayerOutput> next) {
@@ -315,10 +181,11 @@ private:
         waiting_.pop_front();
         LayerOutput& output = *uppermost;
         const LayerText* below = waiting_.empty() ? nullptr : &waiting_.front()->text;
-        const auto from = Time::now();
         PrintStatistics& p = output.text.statistics;
-        const std::string joint = gcode_joint(below, output.text, output.map, job_.settings, job_.printer, p);
-        if (spool_) spool_->add(joint + output.text.body);
+        joining_.measure([&] {
+            const std::string joint = gcode_joint(below, output.text, output.map, job_.settings, job_.printer, p);
+            if (spool_) spool_->add(joint + output.text.body);
+        });
         LayerReport& r = output.report;
         r.travels = p.travels, r.travel_mm = p.travel, r.open_air_mm = p.open_air;
         r.retractions = p.retractions, r.detours = p.detours;
@@ -326,7 +193,6 @@ private:
         r.print_seconds = p.seconds;
         shapes_.add(r, output.shapes, output.packed);
         report_.layers.push_back(std::move(output.report));
-        paths_ += (Time::now() - from).count();
     }
 
     std::string thumbnails() const {
@@ -407,7 +273,7 @@ private:
     std::uint32_t facets_ = 0;
     int total_ = 0;
     StageTimes times_;
-    std::atomic<std::int64_t> proof_{0}, paths_{0}, pictures_{0};  // ns
+    Clock joining_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ribvault/mesh/place_mesh.hpp"
 #include "ribvault/report/run_report.hpp"
@@ -14,6 +15,7 @@ namespace ribvault {
 
 struct Job {
     std::filesystem::path model;
+    std::vector<std::filesystem::path> settings_files;  ///< what settings were read from: no output takes its place
     std::optional<std::filesystem::path> gcode, report, svg, mesh, layers, html;  ///< what to write; svg is a folder
     PlacementOptions placement;
     Settings settings;

@@ -1,8 +1,7 @@
 #include "ribvault/pipeline/layer_front.hpp"
 
-#include <boost/graph/copy.hpp>
-
 #include <algorithm>
+#include <boost/graph/copy.hpp>
 
 #include "ribvault/print/shell_paths.hpp"
 #include "ribvault/slice/outside.hpp"

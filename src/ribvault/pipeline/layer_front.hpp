@@ -5,36 +5,16 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <deque>
 #include <functional>
 #include <mutex>
 
+#include "ribvault/pipeline/clock.hpp"
 #include "ribvault/pipeline/sweep_layers.hpp"
 #include "ribvault/print/gap_strips.hpp"
 #include "ribvault/vault/next_layer.hpp"
 
 namespace ribvault {
-
-/// Seconds spent in one stage, by all threads.
-class Clock {
-public:
-    template <class Work>
-    auto measure(Work&& work) {
-        const auto start = std::chrono::steady_clock::now();
-        struct Stop {
-            std::chrono::steady_clock::time_point start;
-            std::atomic<std::int64_t>& total;
-            ~Stop() { total += std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count(); }
-        } stop{start, nanoseconds_};
-        return work();
-    }
-    double seconds() const { return 1e-9 * static_cast<double>(nanoseconds_); }
-
-private:
-    std::atomic<std::int64_t> nanoseconds_{0};
-};
 
 /// A slice and its erosion, alive while a cavity near it needs them.
 struct Eroded {

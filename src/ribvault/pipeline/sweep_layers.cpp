@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <iterator>
+#include <utility>
 
 #include "ribvault/error.hpp"
 #include "ribvault/pipeline/layer_front.hpp"
@@ -40,6 +41,126 @@ private:
     std::deque<LayerMaterial> above_;  ///< the last layers, at most gap + 1
 };
 
+/// S_i under S_{i+1}, one layer after the other from the top: a layer is complete when the next one is known.
+class Sweep {
+public:
+    Sweep(const Settings& settings, const std::function<LayerSupports(std::size_t)>& made)
+        : settings_(settings), made_(made), overhung_(settings.support_gap_layers) {}
+
+    void advance(Token& token) {
+        if (token.layer < 0) {
+            if (!previous_) return;
+            for (auto [e, end] = edges(previous_->forest); e != end; ++e) previous_->forest[*e].first_layer = true;
+            complete_previous(token);
+            return;
+        }
+        SupportForest none;
+        SupportForest& forest = previous_ ? previous_->forest : none;
+        LayerSupports supports = made_ ? made_(depth_++) : next_supports(forest, token, settings_);
+        double bound = 0;
+        if (settings_.length_bound)
+            bound = length_bound_.next(*token.material.cavity, token.overhang, token.above.cavity.get(), settings_);
+        enter_tracks(supports.forest, token.material);
+        complete_previous(token);
+        token.below_swept = std::make_shared<const LayerMaterial>(token.material);
+        previous_ = std::make_shared<SweptLayer>();
+        previous_->material = std::move(token.material);
+        previous_->forest = std::move(supports.forest), previous_->unsupported = std::move(supports.unsupported);
+        previous_->length_bound = bound;
+        previous_->blocked = supports.blocked, previous_->braces = supports.braces;
+    }
+
+private:
+    void complete_previous(Token& token) {
+        token.swept = std::move(previous_);
+        if (token.swept) token.swept->over_gap = overhung_.over(token.swept->material);
+    }
+
+    const Settings& settings_;
+    const std::function<LayerSupports(std::size_t)>& made_;
+    std::size_t depth_ = 0;  ///< of the next layer, from the top
+    std::shared_ptr<SweptLayer> previous_;
+    LengthBound length_bound_;
+    Overhung overhung_;
+};
+
+/// What is printed, held up, one layer after the other from the top. Layers wait until it is known where supports may
+/// stand under the gap below them.
+class Hold {
+public:
+    Hold(const Settings& settings, std::size_t delay) : settings_(settings), delay_(delay) {}
+
+    /// Takes the layer that the token brings and sends on the one whose turn it is, if any.
+    void advance(Token& token) {
+        const std::shared_ptr<const LayerMaterial> newest = token.layer >= 0 ? token.below_swept : nullptr;
+        if (token.swept) waiting_.push_back({std::move(token.swept), std::move(token.below_swept)});
+        if (waiting_.empty() || (newest && waiting_.size() <= delay_)) return;
+        token.swept = std::move(waiting_.front().layer), token.below_swept = std::move(waiting_.front().below);
+        waiting_.pop_front();
+        hold(*token.swept, newest.get());
+    }
+
+private:
+    struct Waiting {
+        std::shared_ptr<SweptLayer> layer;
+        std::shared_ptr<const LayerMaterial> below;
+    };
+
+    void hold(SweptLayer& layer, const LayerMaterial* newest) {
+        const LayerMaterial& material = layer.material;
+        const bool over_gap = settings_.support_gap_layers > 0;
+        const bool below_known = over_gap && newest && newest->outside->walls;
+        const PrintOverGap* print_over_gap = over_gap ? find_print_over_gap(layer) : nullptr;
+        append_wide_walls(layer.forest, material.cavity->region, settings_, *material.shell);
+        layer.held =
+            hold_print(std::move(*material.shell), layer.forest, printed_above_.get(), settings_,
+                       material.outside.get(), print_over_gap, below_known ? &*newest->outside->walls : nullptr);
+        layer.printed_above = std::exchange(printed_above_, layer.held.printed);
+        const std::size_t kept = static_cast<std::size_t>(settings_.support_gap_layers) + 1;
+        if (settings_.stands_off()) {
+            patches_.push_front(
+                std::make_shared<const NearestSegment>(segments_of(layer.held.plan, TrackKind::support)));
+            if (patches_.size() > kept) patches_.pop_back();
+            layer.patches.assign(patches_.begin(), patches_.end());
+        }
+        if (over_gap) {
+            printed_.push_back(printed_above_);
+            if (printed_.size() > kept) printed_.pop_front();
+        }
+    }
+
+    /// Enters what is printed of the layers over the gap; the last of them, nullptr where there is none.
+    const PrintOverGap* find_print_over_gap(SweptLayer& layer) const {
+        const PrintOverGap* found = nullptr;
+        const int top = layer.material.layer + static_cast<int>(printed_.size());
+        const auto at = [&](int j) -> const PrintedLayer& { return *printed_[static_cast<std::size_t>(top - j)]; };
+        for (OverGap& over : layer.over_gap) {
+            if (over.over_bed) continue;
+            PrintedLayer object;
+            const PrintedLayer& upper = at(over.upper.layer);
+            std::remove_copy_if(upper.tracks.begin(), upper.tracks.end(), std::back_inserter(object.tracks),
+                                is_external_support);
+            auto hanging = std::make_shared<PrintedLayer>();
+            hanging->tracks = extruded_outside(object, at(over.upper.layer - 1));
+            over.print.hanging = std::move(hanging);
+            for (const LayerMaterial& gap : over.gap) {
+                const std::vector<PrintedTrack> tracks = counted_below(at(gap.layer).tracks, settings_);
+                std::remove_copy_if(tracks.begin(), tracks.end(), std::back_inserter(over.print.object),
+                                    is_external_support);
+            }
+            found = &over.print;
+        }
+        return found;
+    }
+
+    const Settings& settings_;
+    const std::size_t delay_;
+    std::deque<Waiting> waiting_;
+    std::shared_ptr<const PrintedLayer> printed_above_;
+    std::deque<std::shared_ptr<const PrintedLayer>> printed_;    ///< of the layers over a gap, from the top
+    std::deque<std::shared_ptr<const NearestSegment>> patches_;  ///< of this layer and of those a gap above it
+};
+
 }  // namespace
 
 StageTimes sweep_layers(
@@ -54,101 +175,14 @@ StageTimes sweep_layers(
 
     Clock sweeping, holding, finishing;
     LayerFront front(slicer, settings, &track_settings, stop, room, !made || settings.length_bound);
-    std::size_t depth = 0;
-    std::shared_ptr<SweptLayer> previous;
-    LengthBound length_bound;
-    Overhung overhung(settings.support_gap_layers);
-    const auto sweep = [&](TokenPtr token) {
-        sweeping.measure([&] {
-            if (token->layer >= 0) {
-                SupportForest none;
-                SupportForest& forest = previous ? previous->forest : none;
-                LayerSupports supports = made ? made(depth++) : next_supports(forest, *token, settings);
-                double bound = 0;
-                if (settings.length_bound)
-                    bound = length_bound.next(*token->material.cavity, token->overhang, token->above.cavity.get(),
-                                              settings);
-                enter_tracks(supports.forest, token->material);
-                token->swept = std::move(previous);
-                if (token->swept) token->swept->over_gap = overhung.over(token->swept->material);
-                token->below_swept = std::make_shared<const LayerMaterial>(token->material);
-                previous = std::make_shared<SweptLayer>(SweptLayer{std::move(token->material),
-                                                                   std::move(supports.forest),
-                                                                   std::move(supports.unsupported),
-                                                                   bound,
-                                                                   supports.blocked,
-                                                                   supports.braces,
-                                                                   {},
-                                                                   nullptr,
-                                                                   {},
-                                                                   {}});
-            } else if (previous) {
-                for (auto [e, end] = edges(previous->forest); e != end; ++e) previous->forest[*e].first_layer = true;
-                token->swept = std::move(previous);
-                token->swept->over_gap = overhung.over(token->swept->material);
-            }
-        });
+    Sweep sweep(settings, made);
+    Hold hold(settings, front.delay());
+    const auto swept = [&](TokenPtr token) {
+        sweeping.measure([&] { sweep.advance(*token); });
         return token;
     };
-    std::shared_ptr<const PrintedLayer> printed_above;
-    std::deque<std::shared_ptr<const PrintedLayer>> printed;  // of the layers over a gap, from the top
-    std::deque<std::shared_ptr<const NearestSegment>> patches;  // of this layer and of those a gap above it
-    const auto find_print_over_gap = [&](SweptLayer& layer) -> const PrintOverGap* {
-        const PrintOverGap* found = nullptr;
-        const int top = layer.material.layer + static_cast<int>(printed.size());
-        const auto at = [&](int j) -> const PrintedLayer& { return *printed[static_cast<std::size_t>(top - j)]; };
-        for (OverGap& over : layer.over_gap) {
-            if (over.over_bed) continue;
-            PrintedLayer object;
-            const PrintedLayer& upper = at(over.upper.layer);
-            std::remove_copy_if(upper.tracks.begin(), upper.tracks.end(), std::back_inserter(object.tracks),
-                                is_external_support);
-            auto hanging = std::make_shared<PrintedLayer>();
-            hanging->tracks = extruded_outside(object, at(over.upper.layer - 1));
-            over.print.hanging = std::move(hanging);
-            for (const LayerMaterial& gap : over.gap) {
-                const std::vector<PrintedTrack> tracks = counted_below(at(gap.layer).tracks, settings);
-                std::remove_copy_if(tracks.begin(), tracks.end(), std::back_inserter(over.print.object),
-                                    is_external_support);
-            }
-            found = &over.print;
-        }
-        return found;
-    };
-    // A layer is printed once it is known where supports may stand under the gap below it.
-    struct Waiting {
-        std::shared_ptr<SweptLayer> layer;
-        std::shared_ptr<const LayerMaterial> below;
-    };
-    std::deque<Waiting> waiting;
-    const auto hold = [&](TokenPtr token) {
-        const std::shared_ptr<const LayerMaterial> newest = token->layer >= 0 ? token->below_swept : nullptr;
-        if (token->swept) waiting.push_back({std::move(token->swept), std::move(token->below_swept)});
-        if (waiting.empty() || (newest && waiting.size() <= front.delay())) return token;
-        token->swept = std::move(waiting.front().layer), token->below_swept = std::move(waiting.front().below);
-        waiting.pop_front();
-        holding.measure([&] {
-            const LayerMaterial& material = token->swept->material;
-            const bool below_known = settings.support_gap_layers > 0 && newest && newest->outside->walls;
-            const PrintOverGap* over_gap =
-                settings.support_gap_layers > 0 ? find_print_over_gap(*token->swept) : nullptr;
-            append_wide_walls(token->swept->forest, material.cavity->region, settings, *material.shell);
-            token->swept->held =
-                hold_print(std::move(*material.shell), token->swept->forest, printed_above.get(), settings,
-                           material.outside.get(), over_gap, below_known ? &*newest->outside->walls : nullptr);
-            token->swept->printed_above = std::move(printed_above);
-            printed_above = token->swept->held.printed;
-            if (settings.stands_off()) {
-                patches.push_front(
-                    std::make_shared<const NearestSegment>(segments_of(token->swept->held.plan, TrackKind::support)));
-                if (patches.size() > static_cast<std::size_t>(settings.support_gap_layers) + 1) patches.pop_back();
-                token->swept->patches.assign(patches.begin(), patches.end());
-            }
-            if (settings.support_gap_layers > 0) {
-                printed.push_back(printed_above);
-                if (printed.size() > static_cast<std::size_t>(settings.support_gap_layers) + 1) printed.pop_front();
-            }
-        });
+    const auto held = [&](TokenPtr token) {
+        holding.measure([&] { hold.advance(*token); });
         return token;
     };
     const auto complete = [&](TokenPtr token) {
@@ -161,8 +195,8 @@ StageTimes sweep_layers(
     };
 
     tbb::parallel_pipeline(front.window(limit),
-                           front.filter() & tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::serial_in_order, sweep) &
-                               tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::serial_in_order, hold) &
+                           front.filter() & tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::serial_in_order, swept) &
+                               tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::serial_in_order, held) &
                                tbb::make_filter<TokenPtr, TokenPtr>(filter_mode::parallel, complete) &
                                tbb::make_filter<TokenPtr, void>(filter_mode::serial_in_order, deliver));
     end_if(stop);

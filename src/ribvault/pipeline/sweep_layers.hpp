@@ -2,12 +2,11 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "ribvault/exact/nearest_segment.hpp"
+#include "ribvault/pipeline/clock.hpp"
 #include "ribvault/pipeline/outside_room.hpp"
 #include "ribvault/print/hold_print.hpp"
 #include "ribvault/print/track_settings.hpp"
@@ -57,9 +56,6 @@ struct SweptLayer {
     std::vector<OverGap> over_gap;  ///< what the external supports of this layer hold up through the gap above them
                                     ///< (settings.support_gap_layers)
 };
-
-/// Busy time of each stage in seconds, summed over threads.
-using StageTimes = std::map<std::string, double>;
 
 /// Slices, hollows and sweeps all layers, and plans what is printed. `finish(layer, below)` is called for every layer,
 /// concurrently, with the material of the layer below (nullptr under layer 0); what it returns is handed to `collect`

@@ -5,11 +5,10 @@
 #include <optional>
 #include <string_view>
 
+#include "ribvault/exact/int128.hpp"
 #include "ribvault/exact/rational.hpp"
 
 namespace ribvault {
-
-__extension__ typedef __int128 Int128;
 
 /// A number with at most 18 decimals, as a multiple of 1e-18. Sums, differences and multiples by integers are exact.
 struct Decimal {

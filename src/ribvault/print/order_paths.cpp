@@ -20,8 +20,6 @@ struct IslandTracks {
     bool empty = true;
 };
 
-bool more_to_the_rear(Point a, Point b) { return 5 * a.y - 2 * a.x > 5 * b.y - 2 * b.x; }
-
 Point first_point(const PlannedTrack& track) { return track.paths.front().points.front(); }
 Point last_point(const PlannedTrack& track) { return end_of(track.paths.back()); }
 

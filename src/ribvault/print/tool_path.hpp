@@ -33,6 +33,13 @@ struct ToolPath {
 /// Where the nozzle stands after printing a path with at least one point.
 inline Point end_of(const ToolPath& path) { return path.closed ? path.points.front() : path.points.back(); }
 
+/// Where paths rather begin: at the rear, a little to the left. On a flat back, which is seldom quite parallel to the
+/// bed's edge, the rearmost point would jump from one corner to the other between layers.
+inline bool more_to_the_rear(Point a, Point b) {
+    const Unit far_a = 5 * a.y - 2 * a.x, far_b = 5 * b.y - 2 * b.x;
+    return far_a != far_b ? far_a > far_b : a < b;
+}
+
 /// Length of a path's centre line in lattice units, the closing segment included.
 inline double length(const ToolPath& path) {
     double sum = 0;

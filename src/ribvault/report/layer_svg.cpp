@@ -223,27 +223,4 @@ std::string layer_svg(const Slice& slice, const Region& cavity, const SupportFor
     return layer_svg(draw_layer(slice, cavity, forest, unsupported, settings, below));
 }
 
-std::string overview_svg(const std::vector<LayerDrawing>& drawings, int columns) {
-    Box box;
-    for (const LayerDrawing& d : drawings)
-        if (!d.box.empty()) box.add(d.box.lo), box.add(d.box.hi);
-    if (box.empty()) box.add({0, 0});
-    const double size = std::max(20.0, to_mm(box.hi.x - box.lo.x)) / 24;
-    const double width = std::max(to_mm(box.hi.x - box.lo.x) + 2 * margin, 25 * size);
-    const double height = to_mm(box.hi.y - box.lo.y) + 2 * margin + 2 * size;
-    const int count = static_cast<int>(drawings.size()), rows = std::max(1, (count + columns - 1) / columns);
-    const int across = std::clamp(count, 1, columns);
-    std::string svg = svg_start(0, 0, across * width, rows * height + 2 * size, 1600 / (across * width));
-    for (int i = 0; i < count; ++i) {
-        const LayerDrawing& d = drawings[static_cast<std::size_t>(i)];
-        const double x = i % columns * width, y = i / columns * height;
-        svg.append("<g transform=\"translate(" + svg_number(x + margin - to_mm(box.lo.x)) + " " +
-                   svg_number(y + margin + to_mm(box.hi.y)) + ")\">\n" + d.marks + "</g>\n");
-        append_text(svg, x + margin, y + height - size, 0.9 * size, caption(d));
-    }
-    append_scale_bar(svg, margin, rows * height + 0.6 * size, 0.9 * size);
-    svg += "</svg>\n";
-    return svg;
-}
-
 }  // namespace ribvault

@@ -10,7 +10,7 @@
 
 namespace ribvault {
 
-/// One layer drawn, apart from the layer's geometry, so that pictures can be put together after the layer is gone.
+/// One layer drawn, with what its caption says.
 struct LayerDrawing {
     int layer = 0;
     double z_mm = 0;               ///< z_i, the plane of the slice
@@ -39,9 +39,5 @@ LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportF
 std::string layer_svg(const LayerDrawing& drawing);
 std::string layer_svg(const Slice& slice, const Region& cavity, const SupportForest& forest, const Region& unsupported,
                       const Settings& settings, const Slice* below = nullptr);
-
-/// A contact sheet: the drawings in rows of `columns`, left to right, all at one scale and in the same frame of the
-/// bed, each with its caption. Precondition: columns > 0.
-std::string overview_svg(const std::vector<LayerDrawing>& drawings, int columns);
 
 }  // namespace ribvault

@@ -82,8 +82,8 @@ std::vector<Bridge> find_bridges(const PrintedLayer& upper, const std::vector<ch
     return bridges;
 }
 
-WithoutBridges take_out_bridges(const PrintedLayer& upper, const std::vector<char>& continues,
-                                const PrintedVerdict& verdict, const std::vector<Bridge>& bridges) {
+PrintedLayer take_out_bridges(const PrintedLayer& upper, const std::vector<char>& continues,
+                              const PrintedVerdict& verdict, const std::vector<Bridge>& bridges) {
     struct Cut {
         double from, to;  // mm along the track
     };
@@ -108,12 +108,11 @@ WithoutBridges take_out_bridges(const PrintedLayer& upper, const std::vector<cha
         if (left < w1 && last.track + 1 < upper.tracks.size() && continues[last.track + 1] != 0)
             beyond(last.track + 1, true, w1 - left);
     }
-    WithoutBridges result;
+    PrintedLayer result;
     for (std::size_t k = 0; k < upper.tracks.size(); ++k) {
         const PrintedTrack& t = upper.tracks[k];
         if (cuts[k].empty()) {
-            result.layer.tracks.push_back(t);
-            result.origin.push_back(k);
+            result.tracks.push_back(t);
             continue;
         }
         std::sort(cuts[k].begin(), cuts[k].end(), [](const Cut& a, const Cut& b) { return a.from < b.from; });
@@ -130,8 +129,7 @@ WithoutBridges take_out_bridges(const PrintedLayer& upper, const std::vector<cha
                 PrintedTrack part = t;
                 if (done > 0) part.a = at(done);
                 if (cut.from < whole) part.b = at(cut.from);
-                result.layer.tracks.push_back(std::move(part));
-                result.origin.push_back(k);
+                result.tracks.push_back(std::move(part));
             }
             done = std::max(done, cut.to);
         }

@@ -22,11 +22,7 @@ std::vector<Bridge> find_bridges(const PrintedLayer& upper, const std::vector<ch
                                  const std::vector<char>& judged, const PrintedVerdict& verdict, double longest);
 
 /// What is left of the tracks above when bridges are taken out, each with one track width at both its ends.
-struct WithoutBridges {
-    PrintedLayer layer;
-    std::vector<std::size_t> origin;  ///< per track of `layer`: its index in `upper`
-};
-WithoutBridges take_out_bridges(const PrintedLayer& upper, const std::vector<char>& continues,
-                                const PrintedVerdict& verdict, const std::vector<Bridge>& bridges);
+PrintedLayer take_out_bridges(const PrintedLayer& upper, const std::vector<char>& continues,
+                              const PrintedVerdict& verdict, const std::vector<Bridge>& bridges);
 
 }  // namespace ribvault

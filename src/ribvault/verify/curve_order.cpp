@@ -135,15 +135,6 @@ int compare(TraceProblem& trace, int curve, const Place& a, const Place& b) {
 // The nearest multiple of 2^-bits.
 Rational rounded(double a, int bits) { return Rational(std::ldexp(std::round(std::ldexp(a, bits)), -bits)); }
 
-Rational rounded(const Rational& a, unsigned bits) {
-    mpz_class n = a.get_num(), q;
-    n <<= bits;
-    mpz_fdiv_q(q.get_mpz_t(), n.get_mpz_t(), a.get_den_mpz_t());
-    Rational r(q);
-    mpq_div_2exp(r.get_mpq_t(), r.get_mpq_t(), bits);
-    return r;
-}
-
 // Enough binary places to stay inside a gap after rounding.
 int places_for(double gap) { return std::max(4, 4 - std::ilogb(gap)); }
 
@@ -194,14 +185,15 @@ CurvePoint between_close(TraceProblem& trace, int curve, int v, int w) {
         const Vec<Rational> m{Rational((p.x + q.x) / 2 - a.x), Rational((p.y + q.y) / 2 - a.y)};
         if (c.line) {
             const Vec<Rational> d = at<Rational>(trace, c.b) - a;
-            return on_line(trace, curve, rounded(Rational(dot(m, d) / dot(d, d)), bits + 64));
+            return on_line(trace, curve, rounded_down(Rational(dot(m, d) / dot(d, d)), bits + 64));
         }
         // With x > |y| after quarter turns, t = tan of half the angle = y / (|m| + x), and |m| = R but for far^2 / 8 R.
         const int quarter = static_cast<int>(
             std::round(std::atan2(m.y.get_d(), m.x.get_d()) / (std::numbers::pi / 2)));
         Vec<Rational> u = m;
         for (int i = 0; i < ((4 - quarter) & 3); ++i) u = {Rational(-u.y), u.x};
-        return on_circle(trace, curve, quarter, rounded(Rational(u.y / (number<Rational>(c.radius) + u.x)), bits + 64));
+        return on_circle(trace, curve, quarter,
+                         rounded_down(Rational(u.y / (number<Rational>(c.radius) + u.x)), bits + 64));
     }
 }
 

@@ -54,12 +54,7 @@ Rational scale_for(const Lengths& lengths, double extent) {
     if (common.get_d() * extent <= most_integer) return Rational(grown(common.get_d(), extent));
     int exponent = 0;
     std::frexp(0x1p20 / extent, &exponent);
-    Rational scale(1);
-    if (exponent > 0)
-        mpq_mul_2exp(scale.get_mpq_t(), scale.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-    else
-        mpq_div_2exp(scale.get_mpq_t(), scale.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
-    return scale;
+    return power_of_two(exponent);
 }
 
 /// Numbers of equal points, and each point once, in their order.

@@ -11,15 +11,6 @@ namespace ribvault::verify {
 
 namespace {
 
-Rational power_of_two(int exponent) {
-    Rational r(1);
-    if (exponent >= 0)
-        mpq_mul_2exp(r.get_mpq_t(), r.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-    else
-        mpq_div_2exp(r.get_mpq_t(), r.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
-    return r;
-}
-
 /// The corners of a loop, rational and within `error` of the true ones in both coordinates; local units. bits 0: as
 /// doubles enclose them.
 struct Corners {

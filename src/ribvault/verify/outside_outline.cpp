@@ -4,11 +4,14 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
+
+#include "ribvault/verify/exact_stadium.hpp"
 
 namespace ribvault {
 namespace {
 
-using RationalPoint = std::array<Rational, 2>;
+using verify::RationalPoint;
 
 Rational cross(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -226,12 +229,18 @@ std::vector<PrintedTrack> extruded_outside(const PrintedLayer& upper, const Prin
     return Outline(lower).outside(upper);
 }
 
-std::vector<PrintedTrack> stretches_outside(const PrintedLayer& upper, const PrintedLayer& lower) {
+OutsideTracks tracks_outside(const PrintedLayer& upper, const PrintedLayer& lower) {
     const Outline outline(lower);
-    std::vector<PrintedTrack> result = outline.outside(upper);
+    OutsideTracks result;
+    result.extruded = outline.outside(upper);
+    result.stretches = result.extruded;
     if (!outline.empty())
-        for (PrintedTrack& stretch : result) stretch.width = outline.width();
+        for (PrintedTrack& stretch : result.stretches) stretch.width = outline.width();
     return result;
+}
+
+std::vector<PrintedTrack> stretches_outside(const PrintedLayer& upper, const PrintedLayer& lower) {
+    return std::move(tracks_outside(upper, lower).stretches);
 }
 
 }  // namespace ribvault

@@ -20,5 +20,10 @@ namespace ribvault {
 std::vector<PrintedTrack> stretches_outside(const PrintedLayer& upper, const PrintedLayer& lower);
 /// The same stretches, each as wide as its track: what is extruded there.
 std::vector<PrintedTrack> extruded_outside(const PrintedLayer& upper, const PrintedLayer& lower);
+/// Both.
+struct OutsideTracks {
+    std::vector<PrintedTrack> stretches, extruded;
+};
+OutsideTracks tracks_outside(const PrintedLayer& upper, const PrintedLayer& lower);
 
 }  // namespace ribvault

@@ -8,30 +8,8 @@ namespace ribvault::verify {
 
 namespace {
 
-/// The greatest multiple of 2^-bits that is no greater.
-Rational rounded(const Rational& a, unsigned bits) {
-    mpz_class n = a.get_num();
-    n <<= bits;
-    mpz_class q;
-    mpz_fdiv_q(q.get_mpz_t(), n.get_mpz_t(), a.get_den_mpz_t());
-    mpz_class den = 1;
-    den <<= bits;
-    Rational r(q, den);
-    r.canonicalize();
-    return r;
-}
-
 Rational approximate(const Algebraic& a, unsigned digits) {
     return Rational(a.approx(CORE::extLong(digits), CORE::extLong(digits)).BigRatValue().get_mp());
-}
-
-Rational power(int exponent) {
-    Rational one(1);
-    if (exponent >= 0)
-        mpq_mul_2exp(one.get_mpq_t(), one.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-    else
-        mpq_div_2exp(one.get_mpq_t(), one.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
-    return one;
 }
 
 /// A point of the closure of M \ K and a direction of about unit length, local units, to many digits.
@@ -99,10 +77,10 @@ std::optional<RationalPoint> witness_from(const PrintedPair& pair, int track, co
     const Vec<Rational> normal{Rational(-start.along.y), start.along.x};
     // v + s (d + t n), rounded so that the digits grow with the closeness only.
     const auto place = [&](int step, const Rational& across) {
-        const Rational s = power(step);
+        const Rational s = power_of_two(step);
         const unsigned bits = static_cast<unsigned>(std::max(0, 16 - 2 * step));
         const auto coordinate = [&](const Rational& v, const Rational& d, const Rational& n) {
-            return rounded(Rational(v + s * (d + across * n)), std::min(bits + 64, digits));
+            return rounded_down(Rational(v + s * (d + across * n)), std::min(bits + 64, digits));
         };
         return Vec<Rational>{coordinate(start.at.x, start.along.x, normal.x),
                              coordinate(start.at.y, start.along.y, normal.y)};
@@ -110,7 +88,7 @@ std::optional<RationalPoint> witness_from(const PrintedPair& pair, int track, co
     const int first = 20, last = -320;
     const int side = found.leaving.side == 0 ? 1 : found.leaving.side;
     for (int step = first; step > last; --step) {
-        const Rational curved = Rational(found.leaving.c) * power(step) * side;
+        const Rational curved = Rational(found.leaving.c) * power_of_two(step) * side;
         for (const Rational& across :
              {curved, Rational(side, 2), Rational(side, 16), Rational(side, 256), Rational(2 * side)})
             if (const auto mm = attempt(place(step, across))) return mm;
@@ -118,7 +96,7 @@ std::optional<RationalPoint> witness_from(const PrintedPair& pair, int track, co
     for (int step = first; step > last; step -= 2)
         for (int turn = 3; turn > last; turn -= 2)
             for (const int s : {side, -side})
-                if (const auto mm = attempt(place(step, Rational(power(turn) * s)))) return mm;
+                if (const auto mm = attempt(place(step, Rational(power_of_two(turn) * s)))) return mm;
     return std::nullopt;
 }
 
@@ -129,7 +107,7 @@ RationalPoint point_of_gap(const PrintedTrack& track, const CentreGap& gap) {
     Rational t;
     for (unsigned bits = 1;; bits += bits < 16 ? 1 : bits / 4) {
         const std::array<Rational, 2> from = enclose(gap.from, bits + 8), to = enclose(gap.to, bits + 8);
-        t = rounded(Rational((from[1] + to[0]) / 2), bits);
+        t = rounded_down(Rational((from[1] + to[0]) / 2), bits);
         if (t > from[1] && t < to[0]) break;
     }
     return {Rational(a[0] + t * (b[0] - a[0])), Rational(a[1] + t * (b[1] - a[1]))};
