@@ -141,17 +141,28 @@ std::string summary(const RunReport& r, const Job& job) {
                          "warning   %ld places are too narrow for a track and not printed (%.2f mm2 in all); "
                          "layers listed %s\n",
                          r.totals.thin_places, r.totals.thin_area_mm2, where_listed(job).c_str());
-    const auto first = std::find_if(r.layers.begin(), r.layers.end(),
-                                    [](const LayerReport& layer) { return !layer.empty; });
-    if (first != r.layers.begin() && first != r.layers.end())
-        append_formatted(
-            text,
-            "warning   nothing is printed on the lowest %ld layer%s, without room for a track: the print begins "
-            "in the air\n",
-            static_cast<long>(first - r.layers.begin()), first - r.layers.begin() == 1 ? "" : "s");
+    long empty = 0, under = 0;  // layers without a track, and those of them that have one with tracks above
+    for (const LayerReport& layer : r.layers) {
+        if (layer.empty)
+            ++empty;
+        else
+            under = empty;
+    }
+    if (under > 0) {
+        const auto lowest =
+            std::find_if(r.layers.begin(), r.layers.end(), [](const LayerReport& l) { return l.empty; });
+        append_formatted(text,
+                         "warning   nothing is printed on %s, without room for a track (the lowest is layer %d): what "
+                         "is above begins in the air\n",
+                         many(under, "layer").c_str(), lowest->layer);
+    }
     if (r.totals.closings > 0)
         append_formatted(text, "warning   %ld gaps in open contours were closed; listed %s\n", r.totals.closings,
                          where_listed(job).c_str());
+    if (r.totals.layers_with_slivers_removed > 0)
+        append_formatted(
+            text, "warning   slits and slivers narrower than 0.4 um, as between parts that touch, are gone from %s\n",
+            many(r.totals.layers_with_slivers_removed, "layer").c_str());
     append_formatted(text, "time      %.2f s on %d threads, %.0f MB\n", r.machine.seconds, r.machine.threads,
                      r.machine.peak_memory_mb);
     const std::pair<const char*, const std::optional<std::filesystem::path>&> written[] = {

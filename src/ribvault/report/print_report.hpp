@@ -87,6 +87,8 @@ struct PrintReport {
     std::string support_radius_source;     ///< "--support-radius", "--overlap" or "half the nozzle"
     double filament_mm = 0;
     std::string filament_source;
+    std::optional<double> layer_height_mm;  ///< of the option: for layers whose height the file does not tell
+    int infill_layers = 1;                  ///< how many of them infill is thick
     std::optional<double> longest_bridge_mm;
     double min_area_mm2 = 0;
     bool boundaries = false;               ///< whether the JSON has the regions' boundaries

@@ -154,6 +154,8 @@ std::string to_json(const PrintReport& r) {
                         {"nozzle_source", r.nozzle_source},
                         {"filament_diameter_mm", r.filament_mm},
                         {"filament_source", r.filament_source},
+                        {"layer_height_mm", r.layer_height_mm ? Json(*r.layer_height_mm) : Json(nullptr)},
+                        {"infill_layers", r.infill_layers},
                         {"allow_bridges_mm", r.longest_bridge_mm ? Json(*r.longest_bridge_mm) : Json(nullptr)},
                         {"min_area_mm2", r.min_area_mm2},
                         {"inside", r.inside},

@@ -35,7 +35,8 @@ Json placement(const Placement& p) {
         axes.push_back(std::string(p.sign[k] < 0 ? "-" : "+") + "xyz"[p.axis[k]]);
         offset.push_back(p.offset[k].get_str());
     }
-    return {{"axes", axes}, {"scale", p.scale.get_str()}, {"offset_mm", offset}};
+    const Json rotation = p.rotation ? Json(*p.rotation) : Json(nullptr);
+    return {{"rotation", rotation}, {"axes", axes}, {"scale", p.scale.get_str()}, {"offset_mm", offset}};
 }
 
 Json settings(const Settings& s) {
@@ -198,7 +199,8 @@ Json layer_members(const LayerReport& l) {
             {"patch_length_mm", measured(l.patch_length_mm)},
             {"verdict", verdict(l.verdict)},
             {"print", print_verdict(l.print)},
-            {"closings", closings}};
+            {"closings", closings},
+            {"slivers_removed", l.slivers_removed}};
 }
 
 Json summary(const VerdictSummary& v) {
@@ -252,7 +254,8 @@ Json totals(const RunTotals& t, std::size_t layers) {
             {"closed_gaps", t.closed_gaps},
             {"patches", t.patches},
             {"patch_length_mm", measured(t.patch_length_mm)},
-            {"closings", t.closings}};
+            {"closings", t.closings},
+            {"layers_with_slivers_removed", t.layers_with_slivers_removed}};
 }
 
 Json machine(const MachineFacts& m) {

@@ -43,6 +43,7 @@ void sum_up(RunReport& report) {
         t.patches += layer.patches;
         t.patch_length_mm += layer.patch_length_mm;
         t.closings += static_cast<long>(layer.closings.size());
+        t.layers_with_slivers_removed += layer.slivers_removed;
         if (layer.verdict.supported)
             ++v.layers_proved;
         else

@@ -56,6 +56,7 @@ struct LayerReport {
                                 ///< or on a layer of the gap above
     double patch_length_mm = 0;
     std::vector<GapClosing> closings;
+    bool slivers_removed = false;  ///< slice/slivers.hpp
     bool empty = false;  ///< nothing is printed on it but skirt and brim
 };
 
@@ -93,6 +94,7 @@ struct RunTotals {
     long patches = 0;
     double patch_length_mm = 0;
     long closings = 0;
+    long layers_with_slivers_removed = 0;
 };
 
 struct ExternalOverhang {

@@ -120,6 +120,17 @@ private:
     std::vector<std::uint32_t> starts_, members_;
 };
 
+Contour rounded(const ExactPolygon& polygon) {
+    Contour contour;
+    for (auto v = polygon.vertices_begin(); v != polygon.vertices_end(); ++v) {
+        const Point p{round_to_lattice(approximate(v->x()) * units_per_mm),
+                      round_to_lattice(approximate(v->y()) * units_per_mm)};
+        if (contour.empty() || contour.back() != p) contour.push_back(p);
+    }
+    while (contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();
+    return contour;
+}
+
 }  // namespace
 
 std::optional<ExactPolygons> nest_contours(const std::vector<ExactContour>& contours) {
@@ -166,6 +177,18 @@ std::optional<ExactPolygons> nest_contours(const std::vector<ExactContour>& cont
         result.polygons[static_cast<std::size_t>(polygon_of[static_cast<std::size_t>(owner)])].add_hole(polygons[c]);
     }
     return result;
+}
+
+void set_contours(Slice& slice, const std::vector<ExactContour>& contours) {
+    std::optional<ExactPolygons> polygons = nest_contours(contours);
+    slice.exact = std::make_shared<const ExactPolygons>(polygons ? std::move(*polygons) : regularise(contours));
+    for_each_boundary(*slice.exact, [&](const ExactPolygon& boundary) {
+        Contour contour = rounded(boundary);
+        if (contour.size() < 3)
+            slice.lost_contours = true;
+        else
+            slice.rounded.push_back(std::move(contour));
+    });
 }
 
 }  // namespace ribvault

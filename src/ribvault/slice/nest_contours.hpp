@@ -15,4 +15,7 @@ std::optional<ExactPolygons> nest_contours(const std::vector<ExactContour>& cont
 /// The same for contours that cross, touch or overlap, by an arrangement of their edges (regularise.cpp).
 ExactPolygons regularise(const std::vector<ExactContour>& contours);
 
+/// Makes these contours, which may cross, the slice's.
+void set_contours(Slice& slice, const std::vector<ExactContour>& contours);
+
 }  // namespace ribvault

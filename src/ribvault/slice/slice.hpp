@@ -18,6 +18,8 @@ struct Slice {
     int layer = 0;
     std::shared_ptr<const ExactPolygons> exact;
     Region rounded;
+    bool lost_contours = false;    ///< `exact` has contours of which rounding left less than three points
+    bool slivers_removed = false;  ///< see slice/slivers.hpp
 };
 
 }  // namespace ribvault

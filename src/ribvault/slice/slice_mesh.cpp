@@ -10,6 +10,7 @@
 #include "ribvault/slice/close_gaps.hpp"
 #include "ribvault/slice/edge_crossings.hpp"
 #include "ribvault/slice/nest_contours.hpp"
+#include "ribvault/slice/slivers.hpp"
 
 namespace ribvault {
 namespace {
@@ -204,17 +205,6 @@ void drop_repeated(ExactContour& contour, bool closed) {
     while (closed && contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();
 }
 
-Contour rounded(const ExactPolygon& polygon) {
-    Contour contour;
-    for (auto v = polygon.vertices_begin(); v != polygon.vertices_end(); ++v) {
-        const Point p{round_to_lattice(approximate(v->x()) * units_per_mm),
-                      round_to_lattice(approximate(v->y()) * units_per_mm)};
-        if (contour.empty() || contour.back() != p) contour.push_back(p);
-    }
-    while (contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();
-    return contour;
-}
-
 ClosedGaps close_contours(const std::vector<std::vector<std::int32_t>>& closed,
                           const std::vector<std::vector<std::int32_t>>& open,
                           const std::vector<std::array<std::int32_t, 2>>& edge_ends, const EdgeCrossings& crossings,
@@ -249,16 +239,8 @@ Slice Slicer::slice(int layer, std::vector<GapClosing>* closings) const {
 
     Slice slice;
     slice.layer = layer;
-    std::optional<ExactPolygons> polygons = nest_contours(gaps.contours);
-    slice.exact = std::make_shared<const ExactPolygons>(polygons ? std::move(*polygons) : regularise(gaps.contours));
-    for (const ExactPolygonWithHoles& polygon : slice.exact->polygons) {
-        const auto add = [&](const ExactPolygon& contour) {
-            slice.rounded.push_back(rounded(contour));
-        };
-        add(polygon.outer_boundary());
-        for (auto hole = polygon.holes_begin(); hole != polygon.holes_end(); ++hole) add(*hole);
-    }
-    std::erase_if(slice.rounded, [](const Contour& c) { return c.size() < 3; });
+    set_contours(slice, gaps.contours);
+    if (has_slivers(slice)) return without_slivers(slice);
     return slice;
 }
 

@@ -22,6 +22,7 @@ struct GapClosing {
 /// Exact: coordinates are the mesh's doubles under an exact rational placement, slice vertices the rational points
 /// where mesh edges cross the plane. A vertex on the plane counts as above it, so a plane through vertices, edges or
 /// faces gives the limit of the slices just below; no plane is moved. Solid is where the winding number is not zero.
+/// A slice with slits or slivers up to 0.4 µm wide is the one without them (slice/slivers.hpp), on the lattice.
 class Slicer {
 public:
     /// Keeps a reference to the mesh. Time and memory linear in triangles and in how often planes cross them.

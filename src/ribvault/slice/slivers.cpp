@@ -1,0 +1,97 @@
+#include "ribvault/slice/slivers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ribvault/exact/nearest_segment.hpp"
+#include "ribvault/slice/lattice_clip.hpp"
+#include "ribvault/slice/nest_contours.hpp"
+
+namespace ribvault {
+namespace {
+
+constexpr Unit half_width = 20;  // of what is too narrow
+
+/// A contour that Clipper's rounding may lose: nowhere wider than a few units.
+bool is_hairline(const Contour& contour) {
+    double around = 0;
+    for (std::size_t i = 0; i < contour.size(); ++i) around += length(contour[(i + 1) % contour.size()] - contour[i]);
+    return std::abs(signed_area({contour})) <= 2 * clip_rounding * around;
+}
+
+/// Whether the contour turns back at vertex i and runs beside itself no wider apart than rounding makes it.
+bool turns_back(const Contour& contour, std::size_t i) {
+    const std::size_t n = contour.size();
+    const Point in = contour[(i + n - 1) % n] - contour[i], out = contour[(i + 1) % n] - contour[i];
+    const double x = static_cast<double>(in.x), y = static_cast<double>(in.y), u = static_cast<double>(out.x),
+                 v = static_cast<double>(out.y);
+    const auto [shorter, longer] = std::minmax({std::hypot(x, y), std::hypot(u, v)});
+    return x * u + y * v > 0 && shorter > 2 * clip_rounding && std::abs(x * v - y * u) <= clip_rounding * longer;
+}
+
+}  // namespace
+
+bool has_slivers(const Slice& slice) {
+    if (slice.lost_contours) return true;
+    std::vector<Segment> edges;
+    std::vector<std::size_t> starts;  // of the contours in `edges`
+    std::vector<double> along;        // how far along its contour each begins
+    for (const Contour& contour : slice.rounded) {
+        if (is_hairline(contour)) return true;
+        starts.push_back(edges.size());
+        double sum = 0;
+        for (std::size_t i = 0; i < contour.size(); ++i) {
+            if (turns_back(contour, i)) return true;
+            edges.push_back({contour[i], contour[(i + 1) % contour.size()]});
+            along.push_back(sum);
+            sum += length(edges.back().b - edges.back().a);
+        }
+    }
+    starts.push_back(edges.size());
+    const NearestSegment tree(edges);
+    for (std::size_t c = 0; c + 1 < starts.size(); ++c) {
+        const std::size_t begin = starts[c], end = starts[c + 1];
+        const double around = along[end - 1] + length(edges[end - 1].b - edges[end - 1].a);
+        // The way along the contour from the end of the earlier edge to the later one, and round the other way.
+        const auto way = [&](std::size_t i, std::size_t j) {
+            if (j < begin || j >= end) return HUGE_VAL;
+            const auto [first, second] = std::minmax(i, j);
+            const double between = along[second] - along[first] - length(edges[first].b - edges[first].a);
+            return std::min(between,
+                            around - (along[second] + length(edges[second].b - edges[second].a)) + along[first]);
+        };
+        for (std::size_t i = begin; i < end; ++i) {
+            bool near = false;
+            tree.visit(bounding_box(edges[i], 2 * half_width), [&](std::uint32_t j) {
+                near = near || (j > i && way(i, j) > 8 * half_width &&
+                                compare_distance(edges[i], edges[j], 2 * half_width) <= 0);
+            });
+            if (near) return true;
+        }
+    }
+    return false;
+}
+
+Slice without_slivers(const Slice& slice) {
+    Slice clean;
+    clean.layer = slice.layer;
+    clean.slivers_removed = true;
+    // A contour without area may have any orientation, by which the offset of all would go the other way.
+    Region region = clip(ClipperLib::ctUnion, slice.rounded, {});
+    region = offset(region, static_cast<double>(half_width), ClipperLib::jtMiter);
+    region = offset(region, -2.0 * static_cast<double>(half_width), ClipperLib::jtMiter);
+    region = offset(region, static_cast<double>(half_width), ClipperLib::jtMiter);
+    std::vector<ExactContour> contours;
+    for (const Contour& contour : region) {
+        ExactContour exact;
+        for (const Point p : contour) {
+            exact.push_back(exact_mm(p));
+            CGAL::exact(exact.back());
+        }
+        contours.push_back(std::move(exact));
+    }
+    set_contours(clean, contours);
+    return clean;
+}
+
+}  // namespace ribvault
