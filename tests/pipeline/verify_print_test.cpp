@@ -243,6 +243,12 @@ TEST_CASE("settings that cannot be", "[verify-print]") {
     job = job_on("wall.gcode");
     job.min_area = -1;
     CHECK_THAT(usage_error(job), Contains("--min-area"));
+    job = job_on("wall.gcode");
+    job.layer_height = Rational(1, 10000);
+    CHECK_THAT(usage_error(job), Contains("--layer-height is 1/10000"));
+    job = job_on("wall.gcode");
+    job.infill_layers = 0;
+    CHECK_THAT(usage_error(job), Contains("--infill-layers is 0"));
 }
 
 TEST_CASE("outputs: the same for any number of threads", "[verify-print]") {

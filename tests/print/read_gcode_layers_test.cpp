@@ -264,31 +264,56 @@ TEST_CASE("a vase that ends level less than a layer over its last turn: what is 
 }
 
 TEST_CASE("the first layer over a raft is pressed down by the second", "[gcode]") {
-    const std::string raft = "M83\nG1 Z.3\nG1 X10 E1\nG1 Z.5\nG1 X0 E1\n";
-    const std::string rest = "G1 Z1.18\nG1 X10 E1\nG1 Z1.38\nG1 X0 E1\n";
-    const GcodePrint print = read(";Layer height: 0.2\n" + raft + "G1 Z1\nG1 X10 E1\nG1 Z.98\nG1 X0 E1\n" + rest);
-    REQUIRE(print.layers.size() == 6);
-    CHECK(to_double(print.layers[2].z) == Approx(0.78));
-    CHECK(height(print.layers[2]) == Approx(0.28));
-    CHECK(print.layers[2].below == std::vector<std::size_t>{1});
-    CHECK(to_double(print.layers[3].z) == Approx(0.98));
-    CHECK(print.layers[3].below == std::vector<std::size_t>{2});
-    CHECK(print.layers_over_air == 0);
-    // Not so where the file says heights, where it goes down by more than that, or goes on elsewhere first.
-    const auto tops = [&](const std::string& text) {
-        return heights_of_layers(read(";Layer height: 0.2\n" + raft + text + rest));
+    const auto print = [](const char* first, const char* second, const char* third, const std::string& filler = "") {
+        return read(
+            std::string(";Layer height: 0.2\nM83\n;LAYER:-2\nG1 Z.3\nG1 X10 E1\n;LAYER:-1\nG1 Z.5\nG1 X0 E1\n") +
+            filler + ";LAYER:0\nG1 Z" + first + "\nG1 X10 E1\n;LAYER:1\nG1 Z" + second + "\nG1 X0 E1\n;LAYER:2\nG1 Z" +
+            third + "\nG1 X10 E1\n");
     };
-    CHECK(tops("G1 Z1\nG1 X10 E1\nG1 Z.9\nG1 X0 E1\n").contains("1"));
-    CHECK(tops("G1 Z1\nG1 X10 E1\nG1 Z.7\nG1 X5 E1\nG1 Z.98\nG1 X0 E1\n").contains("1"));
-    CHECK(tops("G1 Z.98\nG1 X10 E1\nG1 Z1\nG1 X0 E1\n").contains("1"));
-    CHECK(tops(";TYPE:a\n;HEIGHT:.2\nG1 Z1\nG1 X10 E1\nG1 Z.98\nG1 X0 E1\n").contains("1"));
+    // The second is lower than the first, or a little higher.
+    for (const auto& [second, third] : {std::pair(".98", "1.18"), std::pair("1.08", "1.28")}) {
+        INFO(second);
+        const GcodePrint raft = print("1", second, third);
+        REQUIRE(raft.layers.size() == 5);
+        const double top = std::stod(second) - 0.2;
+        CHECK(to_double(raft.layers[2].z) == Approx(top));
+        CHECK(height(raft.layers[2]) == Approx(top - 0.5));
+        CHECK(raft.layers[2].below == std::vector<std::size_t>{1});
+        CHECK(height(raft.layers[3]) == Approx(0.2));
+        CHECK(raft.layers[3].below == std::vector<std::size_t>{2});
+        CHECK(raft.layers_over_air == 0);
+    }
+    // What supports print at the height to which it is pressed is beside it.
+    const GcodePrint beside = print("1", ".98", "1.18", ";LAYER:-1\nG1 Z.78\nG1 X20 E1\nG1 X0\n");
+    REQUIRE(beside.layers.size() == 5);
+    CHECK(beside.layers[2].tracks.size() == 2);
+    // Not by as much as this, and not where no raft is.
+    CHECK(heights_of_layers(print("1.4", ".98", "1.18")).contains("7/5"));
+    CHECK(heights_of_layers(read(";Layer height: 0.2\nM83\n;LAYER:0\nG1 Z.3\nG1 X10 E1\n;LAYER:1\nG1 Z.38\nG1 X0 E1\n"))
+              .contains("3/10"));
+}
+
+TEST_CASE("lines printed on the bed before the lowest layer are part of it", "[gcode]") {
+    const std::string object = "G1 Z.2\nG1 X0 E1\nG1 Z.4\nG1 X10 E1\nG1 Z.6\nG1 X0 E1\n";
+    for (const char* purge : {".28", ".3", ".35"}) {
+        INFO(purge);
+        const GcodePrint print = read(std::string("M83\nG1 Z") + purge + "\nG1 X10 E1\n" + object);
+        REQUIRE(print.layers.size() == 3);
+        CHECK(print.layers[0].on_bed);
+        CHECK(print.layers[0].tracks.size() == 2);
+        CHECK(height(print.layers[1]) == Approx(0.2));
+        CHECK(print.layers[1].below == std::vector<std::size_t>{0});
+    }
+    // What is printed so high up is not on the bed, nor is it after the lowest layer.
+    CHECK(read("M83\nG1 Z2\nG1 X10 E1\n" + object).layers.size() == 4);
+    CHECK(read("M83\nG1 X10\n" + object + "G1 Z.28\nG1 X10 E1\n").layers.size() == 4);
 }
 
 TEST_CASE("infill of unsaid height that most layers leave out is told of, and as thick as the option says", "[gcode]") {
     std::string text = ";FLAVOR:Marlin\n;Layer height: 0.2\n;Generated with Cura_SteamEngine 4.13.0\nM83\n";
     for (int k = 1; k <= 8; ++k) {
         text += ";TYPE:WALL-OUTER\nG1 Z" + std::to_string(0.2 * k) + "\nG1 X10 E1\nG1 X5 E1\n";
-        if (k % 2 == 0) text += ";TYPE:FILL\nG1 X0 E1\n";
+        text += k % 2 == 0 ? ";TYPE:FILL\nG1 X0 E1\n" : ";TYPE:FILL\nG1 X4.5 E.1\n";  // bits in those between
     }
     const GcodePrint thin = read(text);
     CHECK(thin.sparse_infill.feature == "FILL");
@@ -298,10 +323,10 @@ TEST_CASE("infill of unsaid height that most layers leave out is told of, and as
     options.infill_layers = 2;
     const GcodePrint thick = read_gcode(text, "text", options);
     CHECK(thick.sparse_infill.apart == 1);
-    REQUIRE(thick.layers.size() == 12);
-    const GcodeLayer& infill = thick.layers[5];
+    REQUIRE(thick.layers.size() == 16);
+    const GcodeLayer& infill = thick.layers[7];
     CHECK(height(infill) == Approx(0.4));
-    CHECK(infill.below == std::vector<std::size_t>{1, 2});
+    CHECK(infill.below == std::vector<std::size_t>{2, 3, 5});
     CHECK(infill.tracks[0].width == Approx(static_cast<double>(thin.layers[3].tracks.back().width) / 2).epsilon(1e-3));
 }
 

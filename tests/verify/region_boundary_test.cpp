@@ -291,6 +291,34 @@ TEST_CASE("hundreds of tracks on the same line in the air are one region", "[bou
           Approx((10 + 0.001 * (n - 1)) * 0.4 + M_PI * 0.04).epsilon(1e-9));
 }
 
+TEST_CASE("tracks shorter than doubles tell apart are traced", "[boundary]") {
+    for (const unsigned n : {14u, 15u, 17u, 18u, 40u}) {
+        INFO(n);
+        const Rational x = q("73/10") + 3 * tiny(n), y = q("31/10") + tiny(n);
+        const PrintedLayer upper =
+            printed({track(q("1/10"), q("1/10"), q("73/10"), q("31/10"), q("2/5")),
+                     track(q("73/10"), q("31/10"), x, y, q("2/5")), track(x, y, q("91/10"), q("77/10"), q("2/5"))});
+        const PrintedVerdict v = traced(upper, printed({dot(-9, 0, q("2/5"))}), q("1/5"));
+        REQUIRE(v.regions.size() == 1);
+        check_closed(v.regions[0].boundary);
+        CHECK(figures(v).components == 1);
+        const std::array<double, 2> area = area_by_squares(upper, printed({}), 0.2, 16, 20000);
+        CHECK(figures(v).lo <= area[1]);
+        CHECK(figures(v).hi >= area[0]);
+    }
+}
+
+TEST_CASE("a rational point beside a line whose length is not", "[boundary]") {
+    // Ten kilometres long: intervals do not tell where it ends.
+    const PrintedLayer upper =
+        printed({track(q("102540/1000"), q("98311/1000"), q("-9999999"), q("96955/1000"), q("1/1000")),
+                 track(q("-9999999"), q("96955/1000"), q("101626/1000"), q("96955/1000"), q("1/1000"))});
+    const PrintedVerdict v = traced(upper, printed({dot(100, 90, q("2/5"))}), q("1/5"));
+    CHECK_FALSE(v.supported);
+    REQUIRE(!v.regions.empty());
+    for (const UnsupportedRegion& r : v.regions) CHECK(r.witness_certified);
+}
+
 namespace {
 
 /// What has been compared, over all layers.

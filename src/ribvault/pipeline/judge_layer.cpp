@@ -82,7 +82,7 @@ PrintedLayer without_bridges(const GcodeLayer& layer, PrintedLayer upper, const 
             result.features[static_cast<std::size_t>(piece.feature)].bridged_mm += length;
             result.layer.bridges.push_back(std::move(piece));
         }
-    return take_out_bridges(upper, continues, verdict, bridges).layer;
+    return take_out_bridges(upper, continues, verdict, bridges);
 }
 
 /// Of groups of tracks that were judged apart.
@@ -194,11 +194,11 @@ GroupVerdict judge_groups(const GcodePrint& print, std::size_t entry, const Prin
 GroupVerdict judge_inside_and_outside(const GcodePrint& print, std::size_t entry, PrintedLayer& upper,
                                       PrintedLayer& lower, std::vector<char> judged, const LayerRules& rules) {
     PrintedLayer inside = lower;
-    append(stretches_outside(upper, lower), inside.tracks);
-    std::vector<PrintedTrack> outside = extruded_outside(upper, lower);
+    OutsideTracks outside = tracks_outside(upper, lower);
+    append(std::move(outside.stretches), inside.tracks);
     std::vector<char> apart(judged.size(), 0);
-    for (const PrintedTrack& t : outside) apart.push_back(rules.judged[static_cast<std::size_t>(t.feature)]);
-    append(std::move(outside), upper.tracks);
+    for (const PrintedTrack& t : outside.extruded) apart.push_back(rules.judged[static_cast<std::size_t>(t.feature)]);
+    append(std::move(outside.extruded), upper.tracks);
     judged.resize(apart.size(), 0);
     GroupVerdict verdict = judge_groups(print, entry, upper, lower, apart, rules);
     GroupVerdict within = judge(upper, inside, judged, rules);

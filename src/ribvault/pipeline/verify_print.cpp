@@ -3,14 +3,15 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <set>
 
 #include "ribvault/error.hpp"
+#include "ribvault/lower_case.hpp"
 #include "ribvault/output_file.hpp"
 #include "ribvault/pipeline/check_outputs.hpp"
+#include "ribvault/pipeline/clock.hpp"
 #include "ribvault/pipeline/judge_layer.hpp"
 #include "ribvault/pipeline/picture_folder.hpp"
 #include "ribvault/pipeline/thread_limit.hpp"
@@ -23,17 +24,7 @@
 namespace ribvault {
 namespace {
 
-using Time = std::chrono::steady_clock;
-
-double seconds_since(Time::time_point start) { return std::chrono::duration<double>(Time::now() - start).count(); }
-
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorKind::usage, what); }
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return text;
-}
 
 /// Per feature of the print: whether it has tracks.
 std::vector<char> printed_features(const GcodePrint& print) {
@@ -52,7 +43,8 @@ std::vector<char> named(const GcodePrint& print, const std::vector<std::string>&
         bool any = false;
         for (std::size_t k = 0; k < print.features.size(); ++k) {
             if (!printed[k]) continue;
-            if (lower(entry) != lower(print.features[k].name) && lower(entry) != kind_name(print.features[k].kind))
+            if (lower_case(entry) != lower_case(print.features[k].name) &&
+                lower_case(entry) != kind_name(print.features[k].kind))
                 continue;
             chosen[k] = 1;
             any = true;
@@ -79,6 +71,8 @@ void check(const VerifyJob& job) {
     need(job.nozzle, "--nozzle", 100);
     need(job.filament_diameter, "--filament-diameter", 100);
     need(job.layer_height, "--layer-height", 100);
+    if (job.layer_height && *job.layer_height < Rational(1, 1000))
+        refuse("--layer-height is " + job.layer_height->get_str() + "; it must be at least 0.001");
     need(job.longest_bridge, "--allow-bridges", 10000);
     if (job.overlap && (*job.overlap < 0 || *job.overlap >= 1))
         refuse("--overlap is " + job.overlap->get_str() + "; it must be at least 0 and less than 1");
@@ -132,6 +126,8 @@ private:
         report_.widths_computed = print_.widths_computed;
         report_.layer_count = print_.layer_count;
         report_.filament_mm = print_.filament_diameter;
+        report_.infill_layers = job_.infill_layers;
+        if (job_.layer_height) report_.layer_height_mm = job_.layer_height->get_d();
         report_.filament_source = job_.filament_diameter ? "option" : print_.filaments.empty() ? "default" : "file";
         report_.read_seconds = seconds_since(start_);
         if (!print_.cut.empty()) job_.warn(report_.input_path + " is cut off: " + print_.cut + "; judged up to there");
@@ -199,7 +195,7 @@ private:
             refuse("--bed-only and --allow-bridges: bridges are judged over the object too; give one of them");
         if (job_.bed_only && job_.inside) refuse("--bed-only is about what --inside leaves out; give one of them");
         const auto has_outline = [&](const GcodeLayer& layer) {
-            const std::vector<char> outline = outline_tracks(print_, layer);
+            const std::vector<char> outline = outline_tracks(print_.features, layer);
             return std::find(outline.begin(), outline.end(), 1) != outline.end();
         };
         if (job_.inside && std::none_of(print_.layers.begin(), print_.layers.end(), has_outline))

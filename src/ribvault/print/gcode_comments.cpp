@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "ribvault/lower_case.hpp"
+
 namespace ribvault {
 namespace {
 
@@ -14,13 +16,6 @@ std::string_view trimmed(std::string_view text) {
     while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
     while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
     return text;
-}
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return result;
 }
 
 bool take(std::string_view& text, std::string_view prefix) {
@@ -69,6 +64,16 @@ FeatureKind kind_of(const std::string& name) {
     if (any({"perimeter", "wall"})) return FeatureKind::perimeter;
     if (any({"fill", "single extrusion"})) return FeatureKind::infill;
     return FeatureKind::other;
+}
+
+GcodeFeature feature_named(std::string_view name) {
+    const std::string lower = lower_case(name);
+    GcodeFeature feature{std::string(name), kind_of(lower)};
+    feature.outer_wall =
+        lower == "external perimeter" || lower == "outer wall" || lower == "wall-outer" || lower == "outer perimeter";
+    feature.overhang = lower.starts_with("overhang");
+    feature.ironing = lower.find("ironing") != std::string::npos;
+    return feature;
 }
 
 /// Simplify3D before version 4 and Slic3r name features by these words and nothing else.
@@ -135,7 +140,7 @@ void GcodeComments::set_feature(std::string_view name) {
             feature = 0;
             return;
         }
-        features.push_back({std::string(name), kind_of(lower(name))});
+        features.push_back(feature_named(name));
     }
     feature = place->second;
 }
@@ -150,7 +155,7 @@ void GcodeComments::note_program(std::string_view comment) {
                                                                           {"slic3r", GcodeFlavour::slic3r},
                                                                           {"simplify3d", GcodeFlavour::simplify3d},
                                                                           {"ribvault", GcodeFlavour::ribvault}};
-    const std::string text = lower(comment);
+    const std::string text = lower_case(comment);
     if (text.find("generated") == std::string::npos && !text.starts_with("bambustudio")) return;
     for (const auto& [name, which] : names) {
         if (text.find(name) == std::string::npos) continue;
@@ -191,6 +196,8 @@ void GcodeComments::read(std::string_view whole) {
     if (take(text, "LAYER:")) {
         ++layers_named_;
         marked = true;
+        if (const auto n = parse_decimal(text)) layer = static_cast<int>(n->value / decimal_one);
+        raft = raft || (layer && *layer < 0);
         return;
     }
     if (take(text, "LAYER_CHANGE")) {

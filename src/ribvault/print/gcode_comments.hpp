@@ -28,6 +28,8 @@ public:
     std::vector<GcodeFeature> features{{"untyped", FeatureKind::other}};
     std::uint16_t feature = 0;
     bool marked = false;                      ///< a feature type or a layer has been named: start G-code is over
+    std::optional<int> layer;                 ///< as ";LAYER:n" numbers it
+    bool raft = false;                        ///< there were layers below 0, which CuraEngine numbers a raft's so
     std::optional<std::int64_t> width;        ///< 1e-9 mm
     std::optional<std::int64_t> height;       ///< 1e-9 mm, whole µm
     GcodeFlavour flavour = GcodeFlavour::unknown;

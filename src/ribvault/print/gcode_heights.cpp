@@ -1,7 +1,9 @@
 #include "ribvault/print/gcode_heights.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -14,8 +16,7 @@ constexpr std::int64_t plain_height = pm_per_mm / 5;
 /// Per feature: whether its height is its layer's, whatever the file says.
 std::vector<char> with_layers_height(const std::vector<GcodeFeature>& features) {
     std::vector<char> chosen;
-    for (const GcodeFeature& f : features)
-        chosen.push_back(f.kind == FeatureKind::bridge || f.name.find("roning") != std::string::npos);
+    for (const GcodeFeature& f : features) chosen.push_back(f.kind == FeatureKind::bridge || f.ironing);
     return chosen;
 }
 
@@ -27,53 +28,37 @@ Iterator middle_of(Iterator begin, Iterator end) {
     return middle;
 }
 
-/// All of `from` behind the tracks of `to`.
-void append(GcodeLayer& to, GcodeLayer& from) {
-    if (to.tracks.empty()) {
-        to = std::move(from);
-        return;
-    }
-    const auto first = static_cast<std::uint32_t>(to.points.size());
-    to.points.insert(to.points.end(), from.points.begin(), from.points.end());
-    for (GcodeTrack& track : from.tracks) track.a += first, track.b += first, to.tracks.push_back(track);
-}
-
 LayerGroups merged_by_rounding(LayerGroups& groups) {
     LayerGroups merged;
     Int128 z = 0;
     for (auto& [key, layer] : groups) {
         if (merged.empty() || key.z - z > z_rounding) z = key.z;
-        append(merged[{z, key.height}], layer);
+        append_tracks(merged[{z, key.height}], layer);
     }
     return merged;
 }
 
-/// The first layer over a raft: printed directly before one whose top is lower by less than half a layer.
-void press_down(LayerGroups& groups, std::int64_t usual) {
-    struct Printed {
-        std::uint32_t first, last;  // lines of the file
-        LayerGroups::iterator group;
+/// Lines on the bed that are printed before all else, directly before the lowest layer and higher: they are part of it.
+void join_purge_lines(LayerGroups& groups, std::int64_t highest) {
+    if (groups.size() < 2) return;
+    const auto first_line = [](const auto& group) {
+        std::uint32_t first = UINT32_MAX;
+        for (const GcodeTrack& t : group.second.tracks) first = std::min(first, t.line);
+        return first;
     };
-    std::vector<Printed> order;
-    for (auto at = groups.begin(); at != groups.end(); ++at) {
-        order.push_back({UINT32_MAX, 0, at});
-        for (const GcodeTrack& t : at->second.tracks)
-            order.back().first = std::min(order.back().first, t.line),
-            order.back().last = std::max(order.back().last, t.line);
-    }
-    std::sort(order.begin(), order.end(), [](const Printed& p, const Printed& q) { return p.first < q.first; });
-    const Int128 layer = usual * decimal_per_pm;
-    for (std::size_t k = 0; k + 1 < order.size(); ++k) {
-        const auto high = order[k].group, low = order[k + 1].group;
-        const Int128 drop = high->first.z - low->first.z, pressed = low->first.z - layer;
-        if (drop <= 0 || 2 * drop >= layer || order[k].last >= order[k + 1].first) continue;
-        if (std::prev(high) != low || (low != groups.begin() && std::prev(low)->first.z + z_rounding >= pressed))
-            continue;
-        auto node = groups.extract(high);
-        node.key() = {pressed, 0};
-        groups.insert(std::move(node));
-        ++k;
-    }
+    const auto lowest = groups.begin();
+    auto purge = lowest;
+    std::uint32_t begin = first_line(*lowest);
+    for (auto at = std::next(lowest); at != groups.end(); ++at)
+        if (const std::uint32_t first = first_line(*at); first < begin) {
+            if (purge != lowest) return;  // more was printed before
+            purge = at;
+        }
+    if (purge == lowest || in_pm(purge->first.z) > highest) return;
+    for (const GcodeTrack& t : purge->second.tracks)
+        if (t.line > begin) return;
+    append_tracks(lowest->second, purge->second);
+    groups.erase(purge);
 }
 
 /// Distances of the tops from the next lower ones; of the lowest from z = 0.
@@ -84,14 +69,17 @@ std::vector<std::int64_t> distances_of(const LayerGroups& groups) {
     return distances;
 }
 
-/// The layers that one infill feature is in, where its height is not said.
+/// How much of one infill feature is in which layers, where its height is not said.
 struct InfillLayers {
-    std::vector<int> numbers;
-    void add(int layer) {
-        if (numbers.empty() || numbers.back() != layer) numbers.push_back(layer);
-    }
-    /// How many layers most are apart; 1 where these are few.
+    std::map<int, double> lengths;  ///< mm, by layer
+    /// How many layers most are apart that have a fifth or more of the longest, which slicers leave bits of in those
+    /// between; 1 where these are few.
     int apart() const {
+        double longest = 0;
+        for (const auto& [layer, length] : lengths) longest = std::max(longest, length);
+        std::vector<int> numbers;
+        for (const auto& [layer, length] : lengths)
+            if (5 * length >= longest) numbers.push_back(layer);
         if (numbers.size() < 4) return 1;
         std::vector<int> gaps(numbers.size());
         std::adjacent_difference(numbers.begin(), numbers.end(), gaps.begin());
@@ -100,6 +88,16 @@ struct InfillLayers {
 };
 
 }  // namespace
+
+void append_tracks(GcodeLayer& to, GcodeLayer& from) {
+    if (to.tracks.empty()) {
+        to = std::move(from);
+        return;
+    }
+    const auto first = static_cast<std::uint32_t>(to.points.size());
+    to.points.insert(to.points.end(), from.points.begin(), from.points.end());
+    for (GcodeTrack& track : from.tracks) track.a += first, track.b += first, to.tracks.push_back(track);
+}
 
 std::int64_t usual_height(const LayerGroups& groups, const LayerHints& hints) {
     if (hints.layer_height) return *hints.layer_height;
@@ -112,7 +110,7 @@ void resolve_heights(LayerGroups& groups, GcodePrint& print, const LayerHints& h
     // Where the file says heights, these tell what is below.
     if (std::none_of(groups.begin(), groups.end(), [](const auto& group) { return group.first.height != 0; })) {
         groups = merged_by_rounding(groups);
-        press_down(groups, usual_height(groups, hints));
+        join_purge_lines(groups, std::max(thick_first, 2 * usual_height(groups, hints)));
     }
     const std::int64_t layer_height = usual_height(groups, hints);
     const std::int64_t tallest =
@@ -156,7 +154,8 @@ void resolve_heights(LayerGroups& groups, GcodePrint& print, const LayerHints& h
                     if (!is_air(at->first.height)) height = at->first.height;
                 } else if (print.features[t.feature].kind == FeatureKind::infill && said == 0) {
                     height *= hints.infill_layers;
-                    infill[t.feature].add(number);
+                    const GcodePoint &a = from.points[t.a], &b = from.points[t.b];
+                    infill[t.feature].lengths[number] += std::hypot(to_double(b.x - a.x), to_double(b.y - a.y));
                 }
                 GcodeLayer& to = resolved[{z, height}];
                 if (to.points.empty() || to.points.back() != from.points[t.a]) to.points.push_back(from.points[t.a]);

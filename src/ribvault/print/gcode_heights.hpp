@@ -30,6 +30,9 @@ inline constexpr Int128 decimal_per_pm = decimal_one / pm_per_mm;
 inline constexpr Int128 z_rounding = decimal_one / 200;  ///< 0.005 mm, as slicers round
 inline std::int64_t in_pm(Int128 z) { return static_cast<std::int64_t>(z / decimal_per_pm); }
 
+/// All of `from` behind the tracks of `to`.
+void append_tracks(GcodeLayer& to, GcodeLayer& from);
+
 /// The height of a layer, 1e-9 mm: as the hints say, else the median distance between the tops, else 0.2 mm.
 std::int64_t usual_height(const LayerGroups& groups, const LayerHints& hints);
 
@@ -42,9 +45,8 @@ std::int64_t usual_height(const LayerGroups& groups, const LayerHints& hints);
 /// more than 1.25 times two layers or the nozzle is no height: slicers do not say that there is air. Such a layer has
 /// the usual height, and air below it.
 ///
-/// When a file says no heights at all, tops up to 0.005 mm over another are one layer with it, and a layer whose
-/// printing goes on directly less than half a layer lower is pressed into what it lies on, as CuraEngine does with the
-/// first layer over a raft: its top is one layer below the other's.
+/// When a file says no heights at all, tops up to 0.005 mm over another are one layer with it, and what is printed
+/// before all else, higher than the lowest layer but no higher than one on the bed may be, lies on the bed with it.
 void resolve_heights(LayerGroups& groups, GcodePrint& print, const LayerHints& hints);
 
 }  // namespace ribvault

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double pooled_mm = 0.25;  // shorter stretches share one flow
 constexpr std::int64_t widest = 100 * pm_per_mm;
+constexpr Int128 most_pressed = decimal_one / 2;  // 0.5 mm
 
 GcodePoint flat(const std::array<Decimal, 3>& p) { return {p[0], p[1]}; }
 
@@ -32,10 +33,12 @@ std::int64_t LayerCollector::width_of(const Extrusion& e) {
     return -static_cast<std::int64_t>(flows_.size());
 }
 
-GcodeLayer& LayerCollector::group(LayerKey key) {
-    if (last_group_ == nullptr || key != last_key_) {
-        last_group_ = &groups_[key];
-        last_key_ = key;
+GcodeLayer& LayerCollector::group(const Extrusion& e) {
+    const LayerKey key{e.to[2].value, e.height.value_or(0)};
+    const bool over_raft = e.over_raft == 1;
+    if (last_group_ == nullptr || key != last_key_ || over_raft != last_over_raft_) {
+        last_group_ = over_raft ? &over_raft_[key] : &groups_[key];
+        last_key_ = key, last_over_raft_ = over_raft;
     }
     return *last_group_;
 }
@@ -61,7 +64,9 @@ void LayerCollector::extrude(const Extrusion& e) {
     const bool climbs = e.from[2] != e.to[2], continues = std::exchange(in_path_, true);
     const std::int64_t width = width_of(e);
     if (!climbs && !climbed_) {
-        file(group({e.to[2].value, e.height.value_or(0)}), e, width, continues);
+        if (e.over_raft == 2 && (!second_over_raft_ || e.to[2].value < *second_over_raft_))
+            second_over_raft_ = e.to[2].value;
+        file(group(e), e, width, continues);
         return;
     }
     climbing_.push_back({e, width, continues, paths_});
@@ -73,7 +78,7 @@ void LayerCollector::extrude(const Extrusion& e) {
 void LayerCollector::file_level_end() {
     for (std::size_t k = level_from_; k < climbing_.size(); ++k) {
         const Climb& c = climbing_[k];
-        file(group({c.extrusion.to[2].value, c.extrusion.height.value_or(0)}), c.extrusion, c.width, c.continues);
+        file(group(c.extrusion), c.extrusion, c.width, c.continues);
     }
     climbing_.resize(level_from_);
 }
@@ -93,11 +98,25 @@ double LayerCollector::set_aside() {
     const auto add = [&](const GcodePoint& a, const GcodePoint& b) {
         sum += std::hypot(to_double(b.x - a.x), to_double(b.y - a.y));
     };
-    for (const auto& [key, layer] : groups_)
-        for (const GcodeTrack& t : layer.tracks) add(layer.points[t.a], layer.points[t.b]);
+    for (const LayerGroups* groups : {&groups_, &over_raft_})
+        for (const auto& [key, layer] : *groups)
+            for (const GcodeTrack& t : layer.tracks) add(layer.points[t.a], layer.points[t.b]);
     for (const Climb& c : climbing_) add(flat(c.extrusion.from), flat(c.extrusion.to));
     *this = LayerCollector{};
     return sum;
+}
+
+void LayerCollector::press_on_raft(const LayerHints& hints) {
+    const Int128 layer = usual_height(groups_, hints) * decimal_per_pm;
+    for (auto& [key, tracks] : over_raft_) {
+        Int128 z = key.z;
+        if (key.height == 0 && second_over_raft_) {
+            const Int128 pressed = *second_over_raft_ - layer;
+            if (z > pressed && z - pressed <= most_pressed) z = pressed;
+        }
+        append_tracks(groups_[{z, key.height}], tracks);
+    }
+    over_raft_.clear();
 }
 
 void LayerCollector::file_climbs(const LayerHints& hints) {
@@ -127,7 +146,7 @@ void LayerCollector::file_climbs(const LayerHints& hints) {
             if (c.width < 0 && z - bottom < step)
                 flows_[static_cast<std::size_t>(-c.width - 1)].height = (height + in_pm(z - bottom)) / 2;
         }
-        file(group({z, c.extrusion.height.value_or(0)}), c.extrusion, c.width, c.continues);
+        file(groups_[{z, c.extrusion.height.value_or(0)}], c.extrusion, c.width, c.continues);
     }
     climbing_.clear();
     level_from_ = 0;
@@ -154,8 +173,8 @@ void LayerCollector::resolve_widths(GcodePrint& print, GcodeLayer& layer, const 
 void LayerCollector::finish(GcodePrint& print, const LayerHints& hints) {
     end_path();
     last_group_ = nullptr;
+    press_on_raft(hints);
     file_climbs(hints);
-    last_group_ = nullptr;
     resolve_heights(groups_, print, hints);
     int number = -1;
     Int128 z = 0;
@@ -190,7 +209,7 @@ void find_layers_below(std::vector<GcodeLayer>& layers) {
             if (top(j) <= bottom(k) + rounding || bottom(j) < bottom(k) - rounding) layer.below.push_back(j);
         }
         if (layer.below.empty()) {
-            std::size_t j = k;
+            std::size_t j = k - 1;
             while (j > 0 && top(j) > bottom(k) + rounding) --j;
             if (top(j) > bottom(k) + rounding) {  // nothing ends below: what is under it is the bed
                 layer.on_bed = true;

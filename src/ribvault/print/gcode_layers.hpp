@@ -20,6 +20,7 @@ struct Extrusion {
     std::uint16_t feature = 0;
     std::optional<std::int64_t> width;   ///< 1e-9 mm, where the file says it
     std::optional<std::int64_t> height;  ///< 1e-9 mm, where the file says it
+    int over_raft = 0;                   ///< 1: of the first layer over a raft, 2: of the second
     std::uint32_t line = 0;
 };
 
@@ -38,14 +39,16 @@ public:
     void end_path();
     /// All so far was start G-code. Its length, mm.
     double set_aside();
-    bool empty() const { return groups_.empty() && climbing_.empty(); }
+    bool empty() const { return groups_.empty() && over_raft_.empty() && climbing_.empty(); }
 
     /// The layers by z and height, their widths, what is below each. The collector is empty afterwards.
     ///
-    /// Heights: see resolve_heights. Widths that the file does not say: pushed volume over length times height, the
-    /// rectangle of the same cross-section, to 1 µm: narrower than the round-edged track that is printed by 0.21 times
-    /// the height. Volumes of stretches below 0.25 mm are pooled, as E is rounded. Where a climb ends less than a layer
-    /// over the last turn, its height is the mean of both.
+    /// The first layer over a raft is printed higher than the rest stands over it, which presses it down (CuraEngine's
+    /// "Initial Layer Z Overlap"): where the file says no heights, its top is one layer below the second's, when that
+    /// moves it by no more than 0.5 mm. Heights: see resolve_heights. Widths that the file does not say: pushed volume
+    /// over length times height, the rectangle of the same cross-section, to 1 µm: narrower than the round-edged track
+    /// that is printed by 0.21 times the height. Volumes of stretches below 0.25 mm are pooled, as E is rounded. Where
+    /// a climb ends less than a layer over the last turn, its height is the mean of both.
     void finish(GcodePrint& print, const LayerHints& hints);
 
 private:
@@ -65,14 +68,18 @@ private:
 
     std::int64_t width_of(const Extrusion& e);
     void file(GcodeLayer& layer, const Extrusion& e, std::int64_t width, bool continues);
-    GcodeLayer& group(LayerKey key);
+    GcodeLayer& group(const Extrusion& e);
     void file_level_end();
+    void press_on_raft(const LayerHints& hints);
     void file_climbs(const LayerHints& hints);
     void resolve_widths(GcodePrint& print, GcodeLayer& layer, const LayerHints& hints) const;
 
     LayerGroups groups_;
+    LayerGroups over_raft_;                   ///< of the first layer over a raft
+    std::optional<Int128> second_over_raft_;  ///< the lowest top of the layer over that
     GcodeLayer* last_group_ = nullptr;
     LayerKey last_key_{0, -1};
+    bool last_over_raft_ = false;
     std::vector<Climb> climbing_;
     std::size_t level_from_ = 0;     ///< climbing_ from here on is level: known only when the path climbs on or ends
     bool climbed_ = false;           ///< in this path
@@ -82,11 +89,11 @@ private:
     bool flow_open_ = false;
 };
 
-/// The rule for `below` (1e-9 mm throughout). An entry with top z and height h has its bottom at z - h. Directly below
-/// are all entries whose top is at that bottom, to within 0.005 mm (slicers round), and those that reach past it but
-/// not to z (layers of other heights in between: supports, combined infill). Where there is none, the nearest below
-/// counts unless a whole layer of air is between (`under_air`, `air_layers`); below the lowest layer, and below every
-/// entry whose bottom is no higher than the lowest's, is the bed.
+/// The rule for `below` (1e-9 mm throughout; all heights are positive). An entry with top z and height h has its bottom
+/// at z - h. Directly below are all entries whose top is at that bottom, to within 0.005 mm (slicers round), and those
+/// that reach past it but not to z (layers of other heights in between: supports, combined infill). Where there is
+/// none, the nearest below counts unless a whole layer of air is between (`under_air`, `air_layers`); below the lowest
+/// layer, and below every entry whose bottom is no higher than the lowest's, is the bed.
 void find_layers_below(std::vector<GcodeLayer>& layers);
 
 }  // namespace ribvault

@@ -19,6 +19,9 @@ const char* kind_name(FeatureKind kind);
 struct GcodeFeature {
     std::string name;  ///< as the file writes it; "untyped" where it says nothing
     FeatureKind kind = FeatureKind::other;
+    bool outer_wall = false;  ///< the outermost perimeter
+    bool overhang = false;    ///< what of a wall hangs, which OrcaSlicer names apart
+    bool ironing = false;     ///< smooths what is there, and adds next to nothing
 };
 
 struct GcodePoint {

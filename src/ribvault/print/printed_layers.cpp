@@ -46,29 +46,21 @@ PrintedLayer layer_below(const GcodePrint& print, std::size_t entry) {
 PrintedLayer material_below(const GcodePrint& print, std::size_t entry) {
     PrintedLayer material;
     for (const std::size_t k : print.layers[entry].below)
-        append(print.layers[k], outline_tracks(print, print.layers[k]), -2 * arc_bound, material);
+        append(print.layers[k], outline_tracks(print.features, print.layers[k]), -2 * arc_bound, material);
     return material;
 }
 
-std::vector<char> outline_tracks(const GcodePrint& print, const GcodeLayer& layer) {
-    std::vector<char> outer, overhang;  // OrcaSlicer names what of a wall hangs apart
-    for (const GcodeFeature& feature : print.features) {
-        std::string name = feature.name;
-        std::transform(name.begin(), name.end(), name.begin(),
-                       [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-        outer.push_back(name == "external perimeter" || name == "outer wall" || name == "wall-outer" ||
-                        name == "outer perimeter");
-        overhang.push_back(name.starts_with("overhang"));
-    }
+std::vector<char> outline_tracks(const std::vector<GcodeFeature>& features, const GcodeLayer& layer) {
     std::vector<char> result(layer.tracks.size(), 0);
     const std::vector<GcodeTrack>& tracks = layer.tracks;
     for (std::size_t k = 0; k < tracks.size();) {
         std::size_t end = k + 1;
-        const auto of_wall = [&](std::size_t t) { return outer[tracks[t].feature] || overhang[tracks[t].feature]; };
-        bool is_outer = outer[tracks[k].feature];
+        const auto feature = [&](std::size_t t) -> const GcodeFeature& { return features[tracks[t].feature]; };
+        const auto of_wall = [&](std::size_t t) { return feature(t).outer_wall || feature(t).overhang; };
+        bool is_outer = feature(k).outer_wall;
         for (; end < tracks.size() && tracks[end].continues; ++end) {
             if (tracks[end].feature != tracks[k].feature && !(of_wall(k) && of_wall(end))) break;
-            is_outer = is_outer || outer[tracks[end].feature];
+            is_outer = is_outer || feature(end).outer_wall;
         }
         if (is_outer && end - k > 2 && layer.points[tracks[k].a] == layer.points[tracks[end - 1].b])
             std::fill(result.begin() + static_cast<std::ptrdiff_t>(k),

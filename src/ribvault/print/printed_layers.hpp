@@ -19,9 +19,9 @@ PrintedLayer material_below(const GcodePrint& print, std::size_t entry);
 /// An entry as what holds others up; chords are as much narrower.
 PrintedLayer layer_below(const GcodePrint& print, std::size_t entry);
 
-/// Per track of the entry: 1 when it is part of a closed loop of outer perimeter (a feature named so), which bounds the
-/// object: tracks that follow each other without a travel and end exactly where they began.
-std::vector<char> outline_tracks(const GcodePrint& print, const GcodeLayer& layer);
+/// Per track of the entry: 1 when it is part of a closed loop of outer perimeter (GcodeFeature::outer_wall), which
+/// bounds the object: tracks that follow each other without a travel and end exactly where they began.
+std::vector<char> outline_tracks(const std::vector<GcodeFeature>& features, const GcodeLayer& layer);
 
 /// Per track of the entry: 1 when it goes on where the track before it ended, without a travel.
 std::vector<char> continued_tracks(const GcodeLayer& layer);

@@ -19,6 +19,7 @@ namespace ribvault {
 namespace {
 
 constexpr double usual_filament = 1.75;             // mm
+constexpr std::int64_t farthest = 10000;            // mm from the origin; no printer's bed reaches so far
 constexpr std::size_t block_size = 1 << 18;         // bytes
 constexpr std::size_t longest_line = 1 << 20;       // bytes; thumbnails have lines of 80, settings of some thousand
 
@@ -128,19 +129,21 @@ private:
 
     void obey() {
         if (words_.letter == 0) {
-            if (!words_.comment.empty()) read_comment();
+            if (!words_.comment.empty()) read_marks([&] { comments_.read(words_.comment); });
             return;
         }
         if (const std::string wrong = machine_.apply(words_, motion_); !wrong.empty()) fail_line(wrong);
         if (motion_.kind == GcodeMotion::Kind::none) return;
         ++motions_;
-        if (!words_.comment.empty()) comments_.read_behind_move(words_.comment);
+        if (!words_.comment.empty()) read_marks([&] { comments_.read_behind_move(words_.comment); });
         move();
     }
 
-    void read_comment() {
+    /// All before the first layer or feature that is named was start G-code.
+    template <class Read>
+    void read_marks(const Read& read) {
         const bool marked = comments_.marked;
-        comments_.read(words_.comment);
+        read();
         if (!marked && comments_.marked) print_.set_aside_mm += collector_.set_aside();
     }
 
@@ -160,6 +163,9 @@ private:
         retracted_ = false;
         if (print_.lines > std::numeric_limits<std::uint32_t>::max()) fail("has more than 4 billion lines", "split it");
         Extrusion e = extrusion();
+        for (const Decimal& d : motion_.to)
+            if (d.value > farthest * Int128{decimal_one} || d.value < -farthest * Int128{decimal_one})
+                fail_line("extrudes more than 10 m from the origin, where no printer is; expected a place on a bed");
         if (!arc) {
             e.length_mm = distance(e.from, e.to);
             extrude(e);
@@ -187,6 +193,7 @@ private:
         e.feature = comments_.feature;
         e.width = comments_.width;
         e.height = comments_.height;
+        if (comments_.raft && comments_.layer) e.over_raft = std::clamp(*comments_.layer + 1, 0, 3);
         e.line = static_cast<std::uint32_t>(print_.lines);
         return e;
     }

@@ -71,8 +71,12 @@ template <class F>
 [[gnu::noinline]] int exact_sign_at(Located& v, const F& f) {
     CGAL::Protect_FPU_rounding<true> nearest(CGAL_FE_TONEAREST);
     if (const Vec<Rational>* q = rational_value(v)) {
-        if (v.stage < Stage::rational) v.stage = Stage::rational;
-        return sign_of(f.template operator()<Rational>(*q));
+        try {
+            const int s = sign_of(f.template operator()<Rational>(*q));
+            if (v.stage < Stage::rational) v.stage = Stage::rational;
+            return s;
+        } catch (const NotRational&) {  // the point is rational, what f compares it with is not
+        }
     }
     const std::lock_guard lock(algebraic_mutex());
     v.stage = Stage::algebraic;

@@ -79,6 +79,7 @@ void Finder::find() {
 bool Finder::matters(const Located& v, const Solid& s, const Solid& t) {
     const auto [x, y] = trace_.approximate_mm((v.x.inf() + v.x.sup()) / 2, (v.y.inf() + v.y.sup()) / 2);
     const double error = ((v.x.sup() - v.x.inf()) + (v.y.sup() - v.y.inf())) / trace_.scale + 4 * trace_.margin;
+    if (!std::isfinite(x + y + error)) return true;  // doubles do not place it
     for (const Solid* solid : {&s, &t})
         if (std::abs(centre_distance(solid->approx, x, y) - solid->approx.half) > error) return false;
     const auto within = [&, x = x, y = y](const PreparedTrack& p, double half) {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
+#include <tuple>
 
 #include "ribvault/error.hpp"
 #include "ribvault/verify/lane_cover.hpp"
@@ -216,14 +218,58 @@ void Judge::judge(int index) {
         return;
     }
     std::vector<OpenPart> parts = parts_of(gaps, centre);
-    // Stretches of the centre line too short for doubles to place them.
-    if (wanted())
-        for (const CentreGap& c : centre) {
-            const bool known =
-                std::any_of(parts.begin(), parts.end(), [&](const OpenPart& p) { return p.gap.has_value(); });
-            if (!known) parts.push_back({index, {c.from_lo - slack, c.to_hi + slack}, c, {}, {}});
-        }
+    // Stretches of the centre line too short for doubles to place them: one will do to refute the track.
+    const auto has_gap = [](const OpenPart& p) { return p.gap.has_value(); };
+    if (wanted() && !centre.empty() && std::none_of(parts.begin(), parts.end(), has_gap))
+        parts.push_back(
+            {index, {centre.front().from_lo - slack, centre.front().to_hi + slack}, centre.front(), {}, {}});
     if (violates(std::move(parts), !centre.empty())) found.supported = false, verdict_.track_supported[track_] = 0;
+}
+
+/// Per track above: the first judged one that is the same, the other way round apart; itself where there is none.
+std::vector<std::size_t> first_alike(const PrintedPair& pair, const std::vector<char>& judged) {
+    std::vector<std::size_t> first(pair.upper.size()), order;
+    std::iota(first.begin(), first.end(), std::size_t{0});
+    for (const std::size_t k : first)
+        if (judged.empty() || judged[k]) order.push_back(k);
+    const auto key = [&](std::size_t k) {
+        const PreparedTrack& t = pair.above[k];
+        return std::tuple{t.ax, t.ay, t.bx, t.by, t.half};
+    };
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return key(i) < key(j); });
+    for (std::size_t k = 1; k < order.size(); ++k) {
+        const std::size_t candidate = first[order[k - 1]];
+        const PrintedTrack &p = pair.upper[candidate], &q = pair.upper[order[k]];
+        if (key(candidate) == key(order[k]) && p.a == q.a && p.b == q.b && p.width == q.width)
+            first[order[k]] = candidate;
+    }
+    return first;
+}
+
+/// What was found of tracks is said of those that are the same, too.
+void repeat(const std::vector<std::size_t>& first, PrintedVerdict& verdict) {
+    std::vector<std::vector<std::size_t>> again(first.size());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+        if (first[k] == k) continue;
+        again[first[k]].push_back(k);
+        verdict.track_supported[k] = verdict.track_supported[first[k]];
+        verdict.unsupported_length[k] = verdict.unsupported_length[first[k]];
+    }
+    for (std::size_t i = 0, n = verdict.pieces.size(); i < n; ++i)
+        for (const std::size_t k : again[verdict.pieces[i].track]) {
+            verdict.pieces.push_back(verdict.pieces[i]);
+            verdict.pieces.back().track = k;
+        }
+    std::stable_sort(verdict.pieces.begin(), verdict.pieces.end(),
+                     [](const UnsupportedPiece& p, const UnsupportedPiece& q) { return p.track < q.track; });
+    for (std::size_t i = 0, n = verdict.stretches.size(); i < n; ++i)
+        for (const std::size_t k : again[verdict.stretches[i].track])
+            verdict.stretches.push_back({k, verdict.stretches[i].from_mm, verdict.stretches[i].to_mm});
+    for (UnsupportedRegion& region : verdict.regions) {
+        for (std::size_t i = 0, n = region.tracks.size(); i < n; ++i)
+            region.tracks.insert(region.tracks.end(), again[region.tracks[i]].begin(), again[region.tracks[i]].end());
+        std::sort(region.tracks.begin(), region.tracks.end());
+    }
 }
 
 constexpr std::size_t tracks_of_a_run = 256;  ///< judged by one thread
@@ -252,13 +298,17 @@ PrintedVerdict verify_printed(const PrintedLayer& upper, const PrintedLayer& low
         const CGAL::Protect_FPU_rounding<true> upward;
         prepare_pair(upper, lower, rho, pair);
     }
+    // Others ask for little, and of tracks that are all different.
+    const std::vector<std::size_t> first =
+        options.regions ? first_alike(pair, options.judged) : std::vector<std::size_t>();
     const std::size_t runs = upper.tracks.size() / tracks_of_a_run + 1;
     std::vector<Found> found(runs);
     const auto judge_run = [&](std::size_t run) {
         const CGAL::Protect_FPU_rounding<true> upward;
         Judge judge(pair, options, verdict);
         for (std::size_t i = run * tracks_of_a_run; i < std::min((run + 1) * tracks_of_a_run, upper.tracks.size()); ++i)
-            if (options.judged.empty() || options.judged[i]) judge.judge(static_cast<int>(i));
+            if ((options.judged.empty() || options.judged[i]) && (first.empty() || first[i] == i))
+                judge.judge(static_cast<int>(i));
         found[run] = std::move(judge.found);
     };
     // Whoever waits here takes on nothing else meanwhile: the caller may hold what others wait for.
@@ -281,6 +331,7 @@ PrintedVerdict verify_printed(const PrintedLayer& upper, const PrintedLayer& low
         const CGAL::Protect_FPU_rounding<true> upward;
         verdict.regions = describe_regions(pair, open, options);
     }
+    if (!first.empty()) repeat(first, verdict);
     return verdict;
 }
 
