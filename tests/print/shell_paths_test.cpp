@@ -296,7 +296,7 @@ TEST_CASE("inner first: an island without inner perimeters waits for none of ano
     tracks.inner_first = true;
     for (const Unit first : {Unit{0}, 11 * mm}) {
         const Region outline{rectangle(first, 0, first + 10 * mm, 10 * mm),
-                             rectangle(10 * mm + 30000 - first, 0, 10 * mm + 90000 - first, 10 * mm)};
+                             rectangle(10 * mm + 30000 - first, 0, 10 * mm + 100000 - first, 10 * mm)};
         LayerPlan plan;
         append_shell_paths(slice_of(outline), {}, settings, tracks, plan);
         int inner = 0, outer = 0;

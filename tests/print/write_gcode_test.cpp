@@ -388,6 +388,10 @@ TEST_CASE("start G-code that heats itself leaves the supports' tool to the heade
     const std::string own = gcode_header(settings, {}, printer, {}, "");
     CHECK(count(own, "M109 T1 S225") == 1);
     CHECK(count(own, "M104 T1") == 0);
+    for (const char* other : {"M109 S205 T10\n", "START1 TEMP=205 M109\n", "M109 S205 ; T1 comes later\n"}) {
+        printer.start_gcode = other;
+        CHECK(count(gcode_header(settings, {}, printer, {}, ""), "M109 T1 S225") == 1);
+    }
 }
 
 TEST_CASE("printer settings that cannot be are named") {

@@ -134,6 +134,14 @@ void append_strips(std::vector<PlannedTrack> strips, const Covering& covering, U
     const CoveringOutlines outlines(covering);
     const std::size_t before = plan.spare.size();
     for (const PlannedTrack& strip : strips) {
+        if (const ToolPath& path = strip.paths.front(); path.points.size() == 1) {  // a dot
+            const auto across = static_cast<double>(path.width);
+            if (outlines.hide({path.kind, path.width, {path.points.front(), path.points.front()}}))
+                plan.unfilled_area += std::numbers::pi / 4 * across * across;
+            else
+                plan.tracks.push_back(strip);
+            continue;
+        }
         std::vector<Piece> pieces = pieces_of(strip, d);
         for (Piece& piece : pieces)
             piece.chosen = !outlines.hide(piece);

@@ -1,5 +1,6 @@
 #include "ribvault/print/gcode_header.hpp"
 
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -12,6 +13,19 @@ namespace ribvault {
 namespace {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// Whether a command or tool stands in G-code as a word of its own, not in a comment.
+bool names(const std::string& gcode, const std::string& word) {
+    const auto is_letter = [&](std::size_t k) {
+        return k < gcode.size() && std::isalnum(static_cast<unsigned char>(gcode[k])) != 0;
+    };
+    for (std::size_t at = gcode.find(word); at != std::string::npos; at = gcode.find(word, at + 1)) {
+        if ((at > 0 && is_letter(at - 1)) || is_letter(at + word.size())) continue;
+        const std::size_t line = at == 0 ? 0 : gcode.rfind('\n', at - 1) + 1;  // npos + 1 is the start
+        if (gcode.find(';', line) > at) return true;
+    }
+    return false;
+}
 
 std::string support_temperature(const PrinterSettings& p) {
     return std::to_string(p.support_temperature > 0 ? p.support_temperature : p.nozzle_temperature);
@@ -176,10 +190,10 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
     if (facts.seconds > 0) comment("estimated printing time (normal mode)", duration(facts.seconds));
 
     const std::string& start = printer.start_gcode;
-    const bool heats_bed = !contains(start, "M140") && !contains(start, "M190") &&
-                           !contains(start, "{bed_temperature}") && printer.bed_temperature > 0;
+    const bool heats_bed = !names(start, "M140") && !names(start, "M190") && !contains(start, "{bed_temperature}") &&
+                           printer.bed_temperature > 0;
     const bool heats_nozzle =
-        !contains(start, "M104") && !contains(start, "M109") && !contains(start, "{nozzle_temperature}");
+        !names(start, "M104") && !names(start, "M109") && !contains(start, "{nozzle_temperature}");
     const std::string bed = std::to_string(printer.bed_temperature),
                       nozzle = std::to_string(printer.nozzle_temperature);
     if (printer.flavour == Flavour::reprapfirmware) text += "T0\n";
@@ -190,7 +204,7 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
                           "M104 " + tool + " S" + support_temperature(printer) + " ; heat the nozzle of the supports\n",
                       wait_for_tool = "M109 " + tool + " S" + support_temperature(printer) + " ; wait for it\n";
     const bool heats_tool = printer.support_extruder > 0 && settings.outside() &&
-                            (heats_nozzle || (!contains(start, "{support_temperature}") && !contains(start, tool)));
+                            (heats_nozzle || (!contains(start, "{support_temperature}") && !names(start, tool)));
     if (heats_tool && heats_nozzle) text += heat_tool;
     if (heats_bed) text += "M190 S" + bed + " ; wait for the bed\n";
     if (heats_nozzle) text += "M109 S" + nozzle + " ; wait for the nozzle\n";
@@ -213,12 +227,12 @@ std::string gcode_footer(const Settings& settings, const PrinterSettings& printe
     if (printer.fan_percent > 0) text += "M107 ; fan off\n";
     const std::string& end = printer.end_gcode;
     const std::string tool = "T" + std::to_string(printer.support_extruder);
-    if (!contains(end, "M104")) text += "M104 S0 ; nozzle off\n";
-    if (printer.support_extruder > 0 && settings.outside() && !contains(end, tool))
+    if (!names(end, "M104")) text += "M104 S0 ; nozzle off\n";
+    if (printer.support_extruder > 0 && settings.outside() && !names(end, tool))
         text += "M104 " + tool + " S0 ; nozzle of the supports off\n";
-    if (!contains(end, "M140") && printer.bed_temperature > 0) text += "M140 S0 ; bed off\n";
+    if (!names(end, "M140") && printer.bed_temperature > 0) text += "M140 S0 ; bed off\n";
     text += fill_placeholders(end, "end_gcode", settings, printer, facts);
-    if (!contains(end, "M84")) text += "M84 ; motors off\n";
+    if (!names(end, "M84")) text += "M84 ; motors off\n";
     return text;
 }
 

@@ -30,13 +30,6 @@ double distance(Point p, const Contour& ring) {
     return std::sqrt(least);
 }
 
-/// The rear, a little to the left: on a flat back, which is seldom quite parallel to the bed's edge, the rearmost point
-/// would jump from one corner to the other between layers.
-bool more_to_the_rear(Point a, Point b) {
-    const Unit far_a = 5 * a.y - 2 * a.x, far_b = 5 * b.y - 2 * b.x;
-    return far_a != far_b ? far_a > far_b : a < b;
-}
-
 /// How far the contour turns at vertex i, in steps of 10 degrees, so that corners alike from layer to layer compare
 /// equal.
 int turn_at(const Contour& ring, std::size_t i) {
@@ -121,7 +114,23 @@ std::optional<PlannedTrack> widest_dot(const Region& piece, Unit w) {
     return found;
 }
 
-void append_thin_walls(const Region& outline, const Region& outermost, Unit w, bool printed, LayerPlan& plan) {
+/// Where the outermost perimeters' centre lines run. Walls at most 3/2 w wide have no room for two of them side by side
+/// and are left to append_thin_walls; not tips, which a wall of its own would only cut off.
+Region outermost_centres(const Region& outline, Unit w, bool thin_walls) {
+    const double width = static_cast<double>(w);
+    Region centres = mitred(outline, -width / 2);
+    if (!thin_walls) return centres;
+    const Region wide = mitred(mitred(centres, -width / 4), width / 4 + 10);
+    Region walls;
+    for (Region& piece : clip_to_pieces(cl::ctDifference, centres, wide))
+        if (signed_area(piece) >= width * width) std::move(piece.begin(), piece.end(), std::back_inserter(walls));
+    return walls.empty() ? centres : clip(cl::ctDifference, centres, walls);
+}
+
+/// What is too narrow for a perimeter on both its sides, as tracks of width w; where these have no room either, of
+/// `narrower`.
+void append_thin_walls(const Region& outline, const Region& outermost, Unit w, Unit narrower, bool printed,
+                       LayerPlan& plan) {
     const double width = static_cast<double>(w), smallest = width * width / 16;
     const Region filled = mitred(outermost, width / 2);
     if (signed_area(outline) - signed_area(filled) < smallest) return;
@@ -131,6 +140,7 @@ void append_thin_walls(const Region& outline, const Region& outermost, Unit w, b
         if (area < smallest) continue;
         std::vector<PlannedTrack> walls;
         if (printed && area >= width * width / 2) walls = medial_tracks(piece, w, TrackKind::thin_wall);
+        if (printed && walls.empty() && narrower < w) walls = medial_tracks(piece, narrower, TrackKind::thin_wall);
         double left = 0;  // not printed
         if (walls.empty()) {
             left = area;
@@ -199,13 +209,26 @@ Region printed_covers(const LayerPlan& plan, std::size_t first_cover, double mor
     return printed;
 }
 
+/// What no perimeter prints between those that are there, `apart` from them: strips too narrow for one more on both
+/// sides.
+Region between_perimeters(const Region& outline, int perimeters, double width, double apart) {
+    Region strips;
+    for (int j = 1; j < perimeters; ++j) {
+        const Region printed = mitred(mitred(outline, -(j + 0.5) * width), width / 2 + 2 * apart);
+        for (Contour& c : clip(cl::ctDifference, mitred(outline, -j * width - 2 * apart), printed))
+            strips.push_back(std::move(c));
+    }
+    return strips;
+}
+
 /// Strips between perimeters, covers and cavity, and beside covers that do not reach their border, that are too narrow
 /// for a cover. The covers are the plan's tracks from `first_cover` on.
 void append_gap_fill(const Region& outline, const Region& cavity, int perimeters, Unit w,
                      std::size_t first_cover, GapFill which, const Covering& covering, LayerPlan& plan) {
     const double width = static_cast<double>(w);
     constexpr double apart = 10;  // lattice units: keeps Clipper away from nearly coincident borders
-    const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - 2 * apart), cavity);
+    Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - 2 * apart), cavity);
+    for (Contour& c : between_perimeters(outline, perimeters, width, apart)) room.push_back(std::move(c));
     if (signed_area(room) < width * width / 16) return;
     const Region covers = printed_covers(plan, first_cover, 2 * apart);
     const Region left = covers.empty() ? room : clip(cl::ctDifference, room, covers);
@@ -220,6 +243,12 @@ void append_gap_fill(const Region& outline, const Region& cavity, int perimeters
         if (area < width * width / 2) continue;
         std::vector<PlannedTrack> along = medial_tracks(piece, w, TrackKind::thin_wall);
         if (!along.empty()) plan.unfilled_area -= area;
+        if (along.empty())
+            if (std::optional<PlannedTrack> dot = widest_dot(piece, w); dot && 4 * dot->paths.front().width >= 3 * w) {
+                const auto across = static_cast<double>(dot->paths.front().width);
+                plan.unfilled_area -= std::numbers::pi / 4 * across * across;
+                along.push_back(std::move(*dot));
+            }
         std::move(along.begin(), along.end(), std::back_inserter(strips));
     }
     append_strips(std::move(strips), which == GapFill::needed ? covering : Covering(), w, plan);
@@ -232,9 +261,9 @@ void append_shell_paths(const Slice& slice, const Region& exact_cavity, const Se
     const Unit w = tracks.width_on(slice.layer, settings.nozzle);
     const Region outline = simplify(slice.rounded, tracks.resolution),
                  cavity = simplify(exact_cavity, tracks.resolution);
-    const Region outermost = mitred(outline, -static_cast<double>(w) / 2);
+    const Region outermost = outermost_centres(outline, w, tracks.thin_walls);
     append_perimeters(outermost, w, settings, tracks, outline, plan);
-    append_thin_walls(outline, outermost, w, tracks.thin_walls, plan);
+    append_thin_walls(outline, outermost, w, settings.nozzle, tracks.thin_walls, plan);
     const std::vector<Region> areas = cover_areas(
         outline, cavity, settings.perimeters, static_cast<double>(w), tracks.fill_gaps == GapFill::none);
     const std::size_t first_cover = plan.tracks.size();

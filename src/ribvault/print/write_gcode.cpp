@@ -257,10 +257,16 @@ PrintStatistics& PrintStatistics::operator+=(const PrintStatistics& other) {
 LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Settings& settings,
                       const PrinterSettings& printer, const std::vector<ToolPath>& beside) {
     LayerText text = layer_at(1, layer, map, settings, printer, beside);
-    const double missing = printer.min_layer_time - text.statistics.seconds;
-    if (missing <= 0) return text;
-    const double cruising = cruising_seconds(layer, printer);
-    return layer_at(cruising / (cruising + missing), layer, map, settings, printer, beside);
+    double cruising = text.statistics.seconds < printer.min_layer_time ? cruising_seconds(layer, printer) : 0;
+    const double full = cruising;
+    // The slower, the less of the time is acceleration, which no share of the speeds tells: a few rounds settle it.
+    for (int round = 0; round < 4 && cruising > 0; ++round) {
+        const double missing = printer.min_layer_time - text.statistics.seconds;
+        if (missing <= 0.01 * printer.min_layer_time) break;
+        cruising += missing;
+        text = layer_at(full / cruising, layer, map, settings, printer, beside);
+    }
+    return text;
 }
 
 std::string gcode_joint(const LayerText* below, const LayerText& layer, const TravelMap& map, const Settings& settings,
