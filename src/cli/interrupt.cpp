@@ -23,7 +23,9 @@ void note(int signal) {
 void catch_interrupts() {
     std::signal(SIGINT, note);
     std::signal(SIGTERM, note);
+    if (std::signal(SIGHUP, note) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);  // the file may grow no larger: writing says so
 }
 
 bool interrupted() noexcept { return noted; }

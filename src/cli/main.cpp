@@ -1,4 +1,10 @@
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -61,15 +67,42 @@ std::string refusal(const CLI::App& app, const CLI::Error& error, const std::str
     return "ribvault: " + what + "; see " + command + " --help\n";
 }
 
+/// Whoever starts the program without standard streams gets none of its files mixed up with what it says there.
+void open_missing_streams() {
+    while (true) {
+        const int descriptor = ::open("/dev/null", O_RDWR);  // the lowest that is free
+        if (descriptor < 0) return;
+        if (descriptor > STDERR_FILENO) {
+            ::close(descriptor);
+            return;
+        }
+    }
+}
+
+int failed(const std::string& what, ribvault::ErrorKind kind) {
+    std::cerr << "ribvault: " << what << '\n';
+    return static_cast<int>(kind);
+}
+
+/// What was said must have been heard, but by a reader that has gone on purpose (`| head`).
+int heard(int code) {
+    errno = 0;
+    if ((std::fflush(stdout) == 0 && std::ferror(stdout) == 0) || errno == EPIPE) return code;
+    return failed(std::string("standard output cannot be written: ") + std::strerror(errno) +
+                      "; make room, or write it elsewhere",
+                  ribvault::ErrorKind::cannot_write);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     using namespace ribvault;
+    open_missing_streams();
     CLI::App app{
         "ribvault: hollow 3D prints with ribbed support vaults, proved layer by layer.\n"
         "Exit codes: 0 proved (verify: supported), 1 not proved (verify: not supported), 2 wrong option, 3 input "
         "unreadable,\n"
-        "4 input is not a solid, 5 does not fit the bed, 6 cannot write, 130 interrupted."};
+        "4 input is not a solid, 5 does not fit the bed, 6 cannot write, 7 no memory or thread left, 130 interrupted."};
     app.set_version_flag("--version", std::string("ribvault ") + RIBVAULT_VERSION);
     app.require_subcommand(1);
     app.failure_message([&](const CLI::App* parser, const CLI::Error& error) {
@@ -83,20 +116,20 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
         cli::catch_interrupts();
-        return run.at(app.get_subcommands().front())();
+        return heard(run.at(app.get_subcommands().front())());
     } catch (const CLI::Success& e) {
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
         app.exit(e);
         return static_cast<int>(ErrorKind::usage);
     } catch (const Error& e) {
-        std::cerr << "ribvault: " << e.what() << '\n';
-        return static_cast<int>(e.kind());
+        return failed(e.what(), e.kind());
     } catch (const std::bad_alloc&) {
-        std::cerr << "ribvault: out of memory; try a smaller model or --threads 1\n";
-        return static_cast<int>(ErrorKind::bad_geometry);
+        return failed("out of memory; try a smaller model or --threads 1", ErrorKind::no_resources);
     } catch (const std::filesystem::filesystem_error& e) {
-        std::cerr << "ribvault: " << e.what() << '\n';
-        return static_cast<int>(ErrorKind::cannot_write);
+        return failed(e.what(), ErrorKind::cannot_write);
+    } catch (const std::exception& e) {
+        return failed(std::string("the run cannot go on: ") + e.what() + "; try --threads 1, or report it",
+                      ErrorKind::no_resources);
     }
 }

@@ -37,13 +37,21 @@ void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_
                                  "--printer", [&job](const std::string& name) { job.printer = builtin_profile(name); },
                                  "a built-in profile: " + names)
                              ->type_name("NAME");
-    const auto profile = command->add_option_function<std::string>(
-        "--profile", [&job](const std::string& file) { job.printer = read_profile(text_of(file), file); },
-        "a printer profile (docs/printing.md)")->type_name("FILE")->excludes(printer);
+    const auto profile = command
+                             ->add_option_function<std::string>(
+                                 "--profile",
+                                 [&job](const std::string& file) {
+                                     job.printer = read_profile(text_of(file), file);
+                                     job.settings_files.emplace_back(file);
+                                 },
+                                 "a printer profile (docs/printing.md)")
+                             ->type_name("FILE")
+                             ->excludes(printer);
     command->add_option_function<std::string>(
         "--import",
         [&job, &first_layer_height, &from, &imported](const std::string& file) {
             from = file;
+            job.settings_files.emplace_back(file);
             imported = import(file, job, first_layer_height);
         },
         "a PrusaSlicer config or bundle (.ini)")->type_name("FILE")->excludes(printer)->excludes(profile);

@@ -14,6 +14,7 @@ enum class ErrorKind : int {
     bad_geometry = 4,  ///< the file was read, but is not a solid: NaN, open beyond --max-gap, no volume
     does_not_fit = 5,  ///< too large for the bed, or so small that no layer meets it
     cannot_write = 6,  ///< disk full, no permission
+    no_resources = 7,  ///< the system has no memory or no thread left
     interrupted = 130  ///< Ctrl-C or SIGTERM
 };
 

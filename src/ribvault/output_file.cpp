@@ -41,14 +41,19 @@ namespace {
 
 constexpr std::size_t buffer_size = 1 << 16;
 
-/// Where a chain of symbolic links ends, whether that exists or not; still a link when it is a loop.
-fs::path follow_links(fs::path path) {
+/// The number of a descriptor of this program that the path stands for, as /dev/stdout or /dev/fd/3 do; -1: none.
+int descriptor_named(fs::path path) {
     std::error_code none;
-    for (int links = 0; links < 40 && fs::is_symlink(path, none); ++links) {
+    for (int links = 0; links < 40; ++links) {
+        const std::string folder = fs::canonical(path.parent_path(), none).string(), name = path.filename().string();
+        if (!none && (folder == "/proc/self/fd" || folder == "/proc/" + std::to_string(::getpid()) + "/fd") &&
+            !name.empty() && name.find_first_not_of("0123456789") == std::string::npos && name.size() < 10)
+            return std::stoi(name);
+        if (!fs::is_symlink(path, none)) return -1;
         const fs::path to = fs::read_symlink(path, none);
         path = to.is_absolute() ? to : path.parent_path() / to;
     }
-    return path;
+    return -1;
 }
 
 int open_retrying(const char* name, int flags, mode_t mode = 0) {
@@ -76,6 +81,15 @@ std::string_view remedy_for(int error_number) {
 
 }  // namespace
 
+fs::path follow_links(fs::path path) {
+    std::error_code none;
+    for (int links = 0; links < 40 && fs::is_symlink(path, none); ++links) {
+        const fs::path to = fs::read_symlink(path, none);
+        path = to.is_absolute() ? to : path.parent_path() / to;
+    }
+    return path;
+}
+
 void AtomicFile::fail(int error_number, std::string_view remedy) const {
     if (remedy.empty()) remedy = remedy_for(error_number);
     throw Error(ErrorKind::cannot_write, "cannot write " + target_.string() + ": " +
@@ -85,6 +99,12 @@ void AtomicFile::fail(int error_number, std::string_view remedy) const {
 
 AtomicFile::AtomicFile(fs::path target, bool durable)
     : target_(std::move(target)), final_(follow_links(target_)), durable_(durable) {
+    if (const int own = descriptor_named(target_); own >= 0) {
+        descriptor_ = ::fcntl(own, F_DUPFD_CLOEXEC, 3);
+        if (descriptor_ < 0) fail(errno);
+        buffer_.reserve(buffer_size);
+        return;
+    }
     struct stat there {};
     std::error_code none;
     if (!final_.has_filename()) fail(EISDIR);

@@ -10,7 +10,8 @@ namespace ribvault {
 
 /// A file being written: under a temporary name in the folder of its target until commit(). Destroyed before that, it
 /// leaves nothing behind, and a file that was already there is untouched. A target that exists and is no regular file
-/// (a device, a pipe) is written directly.
+/// (a device, a pipe), or a
+/// descriptor of this program (/dev/stdout, /dev/fd/3), is written directly.
 ///
 /// Every failure (no folder, no permission, disk full) throws Error (cannot_write) with the target's name and the
 /// system's reason, at the latest in finish(); the temporary file is then removed when the object is destroyed.
@@ -57,6 +58,9 @@ private:
     int descriptor_ = -1;
     bool durable_ = true;
 };
+
+/// Where a chain of symbolic links ends, whether that exists or not; still a link when it is a loop.
+std::filesystem::path follow_links(std::filesystem::path path);
 
 /// Removes the temporary files of all AtomicFiles that are not committed, and of all that are made from now on. To be
 /// called from a signal handler that ends the program: it takes no lock and allocates nothing.

@@ -136,7 +136,7 @@ class Generate(unittest.TestCase):
             for option in ("-o", "--report", "--mesh", "--layers", "--html"):
                 done = self.run_program(model, option, name)
                 self.assertEqual(done.returncode, 2, option + " " + name)
-                self.assertIn("is the input", done.stderr)
+                self.assertIn("is an input", done.stderr)
         self.assertEqual(model.read_bytes(), CUBE.read_bytes())
         for option, name, why in (("--html", "./a.gcode", "is the file of --output too"), ("--html", "", "name of the output is empty")):
             done = self.run_program(CUBE, "-o", "a.gcode", option, name)

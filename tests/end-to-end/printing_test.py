@@ -104,16 +104,27 @@ class Printing(unittest.TestCase):
         """A pyramid on its tip: the lowest slices have no room for any track."""
         (self.folder / "tip.off").write_text("OFF\n5 6 0\n0 0 0\n2 2 9\n-2 2 9\n-2 -2 9\n2 -2 9\n3 0 1 2\n3 0 2 3\n3 0 3 4\n3 0 4 1\n3 1 3 2\n3 1 4 3\n")
         done = subprocess.run([PROGRAM, "generate", "tip.off", "-o", "a.gcode"], cwd=self.folder, capture_output=True, text=True)
-        self.assertIn("the print begins in the air", done.stdout)
+        self.assertIn("begins in the air", done.stdout)
         first = re.search(r"^;LAYER:(\d+)\n;Z:(\S+)\n(?:(?!;LAYER:).*\n)*?;TYPE:", (self.folder / "a.gcode").read_text(), re.M)
-        self.assertIn("lowest %s layers" % first.group(1), done.stdout)
+        self.assertIn("nothing is printed on %s layers, without room for a track (the lowest is layer 0)" % first.group(1), done.stdout)
         done = subprocess.run([PROGRAM, "verify", "a.gcode"], cwd=self.folder, capture_output=True, text=True)
         self.assertIn("mm over z = 0", done.stderr)
         done = subprocess.run([PROGRAM, "generate", "tip.off", "-o", "a.gcode", "--skirt", "2"], cwd=self.folder, capture_output=True, text=True)
-        self.assertIn("the print begins in the air", done.stdout)
+        self.assertIn("begins in the air", done.stdout)
         self.gcode()
         done = subprocess.run([PROGRAM, "verify", "a.gcode"], cwd=self.folder, capture_output=True, text=True)
         self.assertNotIn("over z = 0", done.stderr)
+
+    def test_an_hourglass_that_goes_on_in_the_air_says_so(self):
+        """Two pyramids tip to tip: no slice near the tips has room for a track."""
+        (self.folder / "glass.off").write_text(
+            "OFF\n9 12 0\n0 0 9\n2 2 0\n-2 2 0\n-2 -2 0\n2 -2 0\n2 2 18\n-2 2 18\n-2 -2 18\n2 -2 18\n"
+            "3 0 1 2\n3 0 2 3\n3 0 3 4\n3 0 4 1\n3 1 3 2\n3 1 4 3\n3 0 6 5\n3 0 7 6\n3 0 8 7\n3 0 5 8\n3 5 6 7\n3 5 7 8\n")
+        done = subprocess.run([PROGRAM, "generate", "glass.off", "-o", "a.gcode"], cwd=self.folder, capture_output=True, text=True)
+        printed = [int(n) for n in re.findall(r"^;LAYER:(\d+)\n;Z:\S+\n(?:(?!;LAYER:).*\n)*?;TYPE:", (self.folder / "a.gcode").read_text(), re.M)]
+        empty = sorted(set(range(max(printed))) - set(printed))
+        self.assertGreater(len(empty), 1)
+        self.assertIn("nothing is printed on %d layers, without room for a track (the lowest is layer %d)" % (len(empty), empty[0]), done.stdout)
 
     def test_import_says_what_it_ignored(self):
         (self.folder / "prusa.ini").write_text("layer_height = 0.3\nperimeters = 2\nfill_density = 20%\nbed_shape = 0x0,200x0,200x180,0x180\n")

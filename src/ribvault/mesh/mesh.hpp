@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Mesh {
 
 /// Exact placement: bed coordinate k (mm) = scale * sign[k] * file coordinate axis[k] + offset[k].
 struct Placement {
+    /// Rows of the matrix that the file's coordinates were multiplied by before, rounded: turns that are no quarters.
+    std::optional<std::array<std::array<double, 3>, 3>> rotation;
     std::array<int, 3> axis{0, 1, 2};
     std::array<int, 3> sign{1, 1, 1};
     Rational scale{1};

@@ -76,6 +76,11 @@ Placement orient(Mesh& mesh, const PlacementOptions& options) {
     if (std::any_of(options.rotate_degrees.begin(), options.rotate_degrees.end(),
                     [](const Rational& angle) { return quarter_turns(angle) < 0; })) {
         mesh.vertices = (matrix * mesh.vertices).eval();
+        placement.rotation.emplace();
+        for (std::size_t row = 0; row < 3; ++row)
+            for (std::size_t column = 0; column < 3; ++column)
+                (*placement.rotation)[row][column] =
+                    matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
         return placement;
     }
     for (int row = 0; row < 3; ++row)
@@ -124,6 +129,12 @@ Placement place(Mesh& mesh, const PlacementOptions& options) {
     check(options);
     if (mesh.triangles.cols() == 0 || mesh.vertices.cols() == 0)
         throw Error(ErrorKind::bad_geometry, "the mesh holds no triangles; export the solid's surface as triangles");
+    constexpr double largest = 1e100;  // squares of such sizes and of their inverses are numbers
+    const double size_read = (mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff()).maxCoeff();
+    if (!(mesh.vertices.cwiseAbs().maxCoeff() < largest) || (size_read > 0 && size_read < 1 / largest))
+        throw Error(ErrorKind::bad_geometry,
+                    "the mesh has coordinates up to " + shown(mesh.vertices.cwiseAbs().maxCoeff()) + " and is " +
+                        shown(size_read) + " in size: no solid is; export it again in millimetres");
     Placement placement = orient(mesh, options);
 
     Size low, extent;

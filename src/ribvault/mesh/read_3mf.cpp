@@ -1,16 +1,18 @@
 // 3MF: a ZIP archive of XML (3MF Core Specification 1.3, Production Extension 1.1 for objects in other parts).
 #include <zip.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <pugixml.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
-
-#include <Eigen/Geometry>
 
 #include "ribvault/mesh/read_formats.hpp"
 #include "ribvault/mesh/text_scanner.hpp"
@@ -151,6 +153,7 @@ private:
         part.xml = xml(name);
         part.root = part.xml->document.document_element();
         if (local_name(part.root.name()) != "model") fail(name, "the part is no 3MF <model>", "export the mesh again");
+        refuse_extensions(name, part.root);
         static const std::map<std::string_view, double> units = {{"micron", 0.001},  {"millimeter", 1},
                                                                  {"centimeter", 10}, {"inch", 25.4},
                                                                  {"foot", 304.8},    {"meter", 1000}};
@@ -163,6 +166,22 @@ private:
         for (const pugi::xml_node& object : child(part.root, "resources").children())
             if (local_name(object.name()) == "object") part.objects.emplace(attribute(object, "id").value(), object);
         return parts_.emplace(name, std::move(part)).first->second;
+    }
+
+    /// What the part says that a reader must understand (Core Specification, 2.3.3): prefixes of namespaces.
+    void refuse_extensions(const std::string& name, const pugi::xml_node& model) const {
+        static constexpr std::string_view understood[] = {
+            "http://schemas.microsoft.com/3dmanufacturing/core/2015/02",
+            "http://schemas.microsoft.com/3dmanufacturing/production/2015/06",
+            "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",  // colours, which change no shape
+            "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07"};
+        std::istringstream prefixes(attribute(model, "requiredextensions").value());
+        for (std::string prefix; prefixes >> prefix;) {
+            const std::string_view space = model.attribute(("xmlns:" + prefix).c_str()).value();
+            if (std::find(std::begin(understood), std::end(understood), space) == std::end(understood))
+                fail(name, "it needs the 3MF extension '" + (space.empty() ? prefix : std::string(space)) + "'",
+                     "export the objects as plain meshes");
+        }
     }
 
     /// Adds the object that an <item> or <component> refers to, `outer` applied after the reference's own transform.
@@ -181,7 +200,10 @@ private:
         const Eigen::Affine3d whole = outer * transform(name, attribute(reference, "transform").value());
         if (const pugi::xml_node mesh = child(object->second, "mesh"))
             return add(name, id, mesh, whole, from.mm_per_unit);
-        for (const pugi::xml_node& component : child(object->second, "components").children())
+        const pugi::xml_node components = child(object->second, "components");
+        if (!components)
+            fail(name, "object '" + id + "' is neither a mesh nor made of components", "export it as a plain mesh");
+        for (const pugi::xml_node& component : components.children())
             if (local_name(component.name()) == "component") place(name, component, whole, depth + 1);
     }
 
@@ -198,6 +220,8 @@ private:
             result(k % 3, k / 3) = *value;
             text.remove_prefix(end);
         }
+        if (text.find_first_not_of(" \t\r\n") != std::string_view::npos)
+            fail(name, "a transform is more than twelve numbers", "export the mesh again");
         return result;
     }
 

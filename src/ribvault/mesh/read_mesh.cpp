@@ -1,8 +1,8 @@
 #include "ribvault/mesh/read_mesh.hpp"
 
 #include <algorithm>
-#include <cctype>
 
+#include "ribvault/lower_case.hpp"
 #include "ribvault/mesh/read_formats.hpp"
 
 namespace ribvault {
@@ -29,8 +29,7 @@ Reader reader_for(const InputFile& file, std::string extension) {
     static constexpr std::string_view obj_words[] = {"v", "vn", "vt", "f", "o", "g", "s", "mtllib", "usemtl"};
     if (std::find(std::begin(obj_words), std::end(obj_words), word) != std::end(obj_words)) return read_obj;
     if (word == "solid" || word == "SOLID") return read_stl;
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+    extension = lower_case(extension);
     if (extension == ".stl") return read_stl;
     if (extension == ".obj") return read_obj;
     if (extension == ".off") return read_off;

@@ -90,7 +90,10 @@ Header read_header(const InputFile& file) {
         scan.next_line();
     }
     // A body may begin with byte 10, so that CR counts as CR LF only when the first line ended so.
-    header.body = std::min(scan.position() + (file.starts_with("ply\r\n") ? 2 : 1), file.data.size());
+    header.body = scan.position();
+    while (header.body < file.data.size() && (file.data[header.body] == ' ' || file.data[header.body] == '\t'))
+        ++header.body;
+    header.body = std::min(header.body + (file.starts_with("ply\r\n") ? 2 : 1), file.data.size());
     return header;
 }
 

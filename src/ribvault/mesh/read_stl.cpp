@@ -49,7 +49,11 @@ void read_binary(const InputFile& file, MeshBuilder& mesh) {
 }
 
 void read_facet(TextScanner& scan, MeshBuilder& mesh) {
-    while (!same_word(scan.token("'outer loop'"), "outer")) {  // the normal is not needed, whatever it is
+    for (int skipped = 0;; ++skipped) {  // "normal" and three numbers, whatever they are
+        const std::string_view word = scan.token("'outer loop'");
+        if (same_word(word, "outer")) break;
+        if (skipped == 4 || same_word(word, "vertex") || same_word(word, "endfacet"))
+            scan.fail("a facet without 'outer loop'");
     }
     if (!same_word(scan.token("'loop'"), "loop")) scan.fail("'outer' without 'loop'");
     std::array<int, 3> corner;

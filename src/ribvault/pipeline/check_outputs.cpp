@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "ribvault/error.hpp"
+#include "ribvault/output_file.hpp"
 
 namespace ribvault {
 namespace {
@@ -13,8 +14,8 @@ bool is_one_file(const fs::path& a, const fs::path& b) {
     std::error_code error;
     const fs::file_status there = fs::status(a, error);
     if (fs::exists(there) && !fs::is_regular_file(there)) return false;
-    const fs::path whole_a = fs::weakly_canonical(fs::absolute(a, error), error);
-    const fs::path whole_b = fs::weakly_canonical(fs::absolute(b, error), error);
+    const fs::path whole_a = fs::weakly_canonical(follow_links(fs::absolute(a, error)), error);
+    const fs::path whole_b = fs::weakly_canonical(follow_links(fs::absolute(b, error)), error);
     return !whole_a.empty() && whole_a == whole_b;
 }
 
@@ -27,7 +28,7 @@ void check_outputs(const std::vector<fs::path>& inputs, const std::vector<NamedO
         for (const fs::path& input : inputs)
             if (is_one_file(*file, input))
                 throw Error(ErrorKind::usage, option + " " + file->string() +
-                                                  " is the input, which would be lost; give the output another name");
+                                                  " is an input, which would be lost; give the output another name");
         for (std::size_t other = 0; other < k; ++other)
             if (outputs[other].file && is_one_file(*file, *outputs[other].file))
                 throw Error(ErrorKind::usage, option + " " + file->string() + " is the file of " +

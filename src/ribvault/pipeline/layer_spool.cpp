@@ -11,8 +11,10 @@ namespace ribvault {
 namespace {
 
 [[noreturn]] void fail(int reason) {
-    throw Error(ErrorKind::cannot_write, std::string("the temporary file for the layers cannot be written (") +
-                                             std::strerror(reason) + "); free space in the temporary folder");
+    throw Error(ErrorKind::cannot_write,
+                std::string("the temporary file for the layers cannot be written (") + std::strerror(reason) + "); " +
+                    (reason == EMFILE || reason == ENFILE ? "raise the limit on open files (ulimit -n)"
+                                                          : "free space in the temporary folder"));
 }
 
 [[noreturn]] void fail_to_read(int reason) {
