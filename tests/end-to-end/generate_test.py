@@ -145,6 +145,51 @@ class Generate(unittest.TestCase):
         self.assertEqual(self.files(), {"model.stl", "link.stl"})
         self.assertEqual(self.run_program(CUBE, "-o", "/dev/null", "--report", "/dev/null").returncode, 0)
 
+    def test_no_output_takes_the_place_of_what_settings_are_read_from(self):
+        text = "nozzle_diameter = 0.4\n"
+        (self.folder / "mine.ini").write_text(text)
+        for given in ("--import", "--profile"):
+            done = self.run_program(CUBE, given, "mine.ini", "--report", "./mine.ini")
+            self.assertEqual(done.returncode, 2 if given == "--import" else done.returncode, done.stderr)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertEqual((self.folder / "mine.ini").read_text(), text)
+        (self.folder / "loop").symlink_to("not_yet.gcode")
+        self.assertEqual(self.run_program(CUBE, "-o", "not_yet.gcode", "--report", "loop").returncode, 2)
+
+    def test_outputs_that_are_streams_of_the_program(self):
+        done = self.run_program(CUBE, "-o", "/dev/stdout", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.run_program(CUBE, "-o", "a.gcode", "--quiet").returncode, 0)
+        self.assertEqual(done.stdout, (self.folder / "a.gcode").read_text())
+        (self.folder / "log").write_text("before\n")
+        with open(self.folder / "log", "a") as log:
+            subprocess.run([PROGRAM, "generate", CUBE, "-o", "/dev/fd/1", "--quiet"], stdout=log, check=True)
+        self.assertEqual((self.folder / "log").read_text(), "before\n" + done.stdout)
+
+    def test_without_standard_streams_nothing_is_mixed_into_the_outputs(self):
+        self.assertEqual(self.run_program(CUBE, "-o", "a.gcode").returncode, 0)
+        def close():
+            for stream in (0, 1, 2):
+                os.close(stream)
+        done = subprocess.run([PROGRAM, "generate", CUBE, "-o", "b.gcode"], cwd=self.folder, preexec_fn=close)
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual((self.folder / "b.gcode").read_text(), (self.folder / "a.gcode").read_text())
+
+    def test_a_summary_that_cannot_be_written_is_an_error(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([PROGRAM, "generate", CUBE, "-o", "a.gcode"], cwd=self.folder, stdout=full,
+                                  stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 6)
+        self.assertIn("standard output cannot be written", done.stderr)
+
+    def test_a_limit_on_file_sizes_is_an_error(self):
+        """As after `ulimit -f`, whose signal ends programs that do not ignore it."""
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (100000, 100000))
+        done = self.run_program(CUBE, "-o", "a.gcode", "--quiet", preexec_fn=limit)
+        self.assertEqual(done.returncode, 6, done.stderr)
+        self.assertEqual(self.files(), set())
+
     def test_pictures_are_of_one_run_and_a_folder_without_any_goes_again(self):
         (self.folder / "mine").mkdir()
         (self.folder / "mine/layer_of_paint.svg").write_text("the user's")

@@ -103,6 +103,41 @@ TEST_CASE("missing, empty, folder, no permission") {
     }
 }
 
+TEST_CASE("a facet of an STL text without its loop is not passed over") {
+    const TemporaryFolder folder;
+    const std::string
+        loop = "outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
+        damaged = "facet normal 0 0 1\ninner loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+    check_refused(folder.write("a.stl", "solid a\n" + damaged + "facet normal 0 0 1\n" + loop + "endsolid\n"),
+                  ErrorKind::unreadable, ", line ", "a facet without 'outer loop'");
+    check_refused(folder.write("b.stl", "solid a\nfacet normal 0 0 1\nfacet normal 0 0 1\n" + loop + "endsolid\n"),
+                  ErrorKind::unreadable, ", line ", "a facet without 'outer loop'");
+}
+
+TEST_CASE("3MF that needs what is not read is refused, whatever else is in it") {
+    const TemporaryFolder folder;
+    const std::string cube = "<object id=\"1\">" + mesh_xml(weld(box({0, 0, 0}, {1, 1, 1}))) + "</object>";
+    const auto with = [&](const std::string& attributes, const std::string& resources, const std::string& item) {
+        std::string model = model_xml(resources, "<item objectid=\"" + item + "\"/>");
+        model.insert(model.find("<model") + 6, " " + attributes);
+        write_zip(folder.path() / "a.3mf", {{"3D/3dmodel.model", model}});
+        return folder.path() / "a.3mf";
+    };
+    check_refused(
+        with("requiredextensions=\"p b\" xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\" "
+             "xmlns:b=\"http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02\"",
+             cube, "1"),
+        ErrorKind::unreadable, ", 3D/3dmodel.model: ", "beamlattice");
+    check_refused(with("requiredextensions=\"x\"", cube, "1"), ErrorKind::unreadable, ", 3D/3dmodel.model: ", "'x'");
+    check_refused(with("", cube + "<object id=\"2\"><booleanshape/></object>", "2"), ErrorKind::unreadable,
+                  ", 3D/3dmodel.model: ", "object '2' is neither a mesh");
+    CHECK(
+        read_mesh(
+            with("requiredextensions=\"p\" xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\"",
+                 cube, "1"))
+            .triangles.cols() == 12);
+}
+
 TEST_CASE("a cut 3MF archive is named as such") {
     const TemporaryFolder folder;
     write_zip(folder.path() / "a.3mf", {{"3D/3dmodel.model", model_xml("", "")}});

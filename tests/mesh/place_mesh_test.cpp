@@ -119,6 +119,20 @@ TEST_CASE("every quarter turn keeps the orientation") {
             }
 }
 
+TEST_CASE("sizes that no number holds once they are scaled are refused") {
+    for (const double size : {1e150, 1e307, 1e-150}) {
+        Mesh mesh = awkward();
+        mesh.vertices *= size;
+        PlacementOptions options;
+        options.height_mm = Rational(20);
+        for (const int degrees : {0, 30}) {
+            options.rotate_degrees[0] = Rational(degrees);
+            Mesh turned = mesh;
+            CHECK_THROWS_WITH(place(turned, options), Catch::Contains("no solid is"));
+        }
+    }
+}
+
 TEST_CASE("other angles turn the mesh once, rigidly, and leave the axis alone") {
     Mesh mesh = awkward();
     PlacementOptions options;
@@ -126,6 +140,11 @@ TEST_CASE("other angles turn the mesh once, rigidly, and leave the axis alone") 
     const Placement placement = place(mesh, options);
     CHECK(placement.axis == std::array<int, 3>{0, 1, 2});
     CHECK(mesh.vertices.row(2) == awkward().vertices.row(2));
+    REQUIRE(placement.rotation);
+    for (Eigen::Index row = 0; row < 3; ++row) {
+        const auto& r = (*placement.rotation)[static_cast<std::size_t>(row)];
+        CHECK((Eigen::RowVector3d(r[0], r[1], r[2]) * awkward().vertices - mesh.vertices.row(row)).norm() < 1e-9);
+    }
     for (int a = 0; a < 8; ++a)
         for (int b = 0; b < a; ++b)
             CHECK((mesh.vertices.col(a) - mesh.vertices.col(b)).norm() ==

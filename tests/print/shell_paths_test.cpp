@@ -204,8 +204,19 @@ TEST_CASE("places narrower than one track get a track of their width, those just
         CHECK(without.thin_places == 1);
         CHECK(without.thin_area > 0.9 * 19000 * 10 * mm);
     }
-    CHECK(layer(41000).paths.size() == 1);
-    CHECK(layer(41000).thin_places == 0);
+    // Up to 3/2 tracks wide there is no room for two of them side by side.
+    for (const Unit width : {Unit{41000}, Unit{50000}, Unit{59000}}) {
+        const LayerPaths one = layer(width);
+        REQUIRE(one.paths.size() == 1);
+        CHECK(one.paths[0].kind == TrackKind::thin_wall);
+        CHECK(one.paths[0].width <= width);
+        CHECK(one.paths[0].width > width - 2000 - 10);
+        CHECK(one.thin_places == 0);
+    }
+    CHECK(layer(41000, false).paths[0].kind == TrackKind::outer_perimeter);
+    CHECK(layer(61000).paths.size() == 1);
+    CHECK(layer(61000).paths[0].kind == TrackKind::outer_perimeter);
+    CHECK(layer(61000).thin_places == 0);
     CHECK(layer(118000).paths.size() == 1);
     CHECK(layer(125000).paths.size() >= 2);
     CHECK(shell_paths({}, {}, Settings{}).paths.empty());
@@ -256,6 +267,63 @@ TEST_CASE("the printed shell fills slices that a thin wall crosses: what has no 
         }
     CHECK(wall > 6.5 * mm);
     CHECK(wall < 7.5 * mm);
+    CHECK(layer.thin_places == 0);
+}
+
+namespace {
+
+double material(const LayerPaths& layer) {
+    double sum = 0;
+    for (const ToolPath& path : layer.paths)
+        sum += path.points.size() == 1 ? M_PI / 4 * static_cast<double>(path.width * path.width)
+                                       : length(path) * static_cast<double>(path.width);
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("what there is no room for another perimeter in is filled between those that are there") {
+    TrackSettings tracks;
+    tracks.fill_gaps = GapFill::all;
+    for (const int perimeters : {2, 3})
+        for (const Unit width : {Unit{110000}, Unit{120000}, Unit{140000}}) {
+            INFO(perimeters << " " << width);
+            Settings settings;
+            settings.perimeters = perimeters;
+            const Region wall{rectangle(0, 0, 20 * mm, width)};
+            const LayerPaths layer = shell_paths(wall, {}, settings, 0, tracks);
+            CHECK(material(layer) > 0.93 * signed_area(wall));
+            CHECK(material(layer) < 1.01 * signed_area(wall));
+            CHECK(layer.unfilled_area < 0.05 * signed_area(wall));
+            tracks.fill_gaps = GapFill::none;
+            const LayerPaths open = shell_paths(wall, {}, settings, 0, tracks);
+            CHECK(open.unfilled_area + material(open) > 0.95 * signed_area(wall));
+            tracks.fill_gaps = GapFill::all;
+        }
+}
+
+TEST_CASE("a round hole that a ring leaves in a cover is filled by a dot") {
+    const Region post{rectangle(0, 0, 140000, 140000)};
+    TrackSettings tracks;
+    tracks.fill_gaps = GapFill::all;
+    const LayerPaths filled = shell_paths(post, {}, Settings{}, 0, tracks);
+    REQUIRE(filled.paths.size() == 2);
+    const auto dot = std::find_if(filled.paths.begin(), filled.paths.end(),
+                                  [](const ToolPath& path) { return path.points.size() == 1; });
+    REQUIRE(dot != filled.paths.end());
+    CHECK(dot->width >= 56000);
+    CHECK(dot->width <= 60000);
+    CHECK(distance(segments(*dot), segments(post)) >= 40000 + static_cast<double>(dot->width) / 2 - clipper);
+    tracks.fill_gaps = GapFill::none;
+    for (const ToolPath& path : shell_paths(post, {}, Settings{}, 0, tracks).paths) CHECK(path.points.size() > 1);
+}
+
+TEST_CASE("what is too thin for a wider first layer's tracks gets those of the other layers") {
+    TrackSettings tracks;
+    tracks.first_layer_width = 80000;
+    const LayerPaths layer = shell_paths({rectangle(0, 0, 10 * mm, 38000)}, {}, Settings{}, 0, tracks);
+    REQUIRE(layer.paths.size() == 1);
+    CHECK(layer.paths[0].width == 38000);
     CHECK(layer.thin_places == 0);
 }
 

@@ -264,12 +264,15 @@ TEST_CASE("a layer that would set too little is printed slower, but not slower t
     const LayerText fast = at(20 * mm, plain), slower = at(20 * mm, slow);
     CHECK(parse(fast.body).tracks[0].feed_rate == 2400);
     CHECK(parse(slower.body).tracks[0].feed_rate == Approx(960).margin(60));
-    CHECK(slower.statistics.seconds == Approx(5).margin(0.3));
+    CHECK(slower.statistics.seconds == Approx(5).margin(0.05));
     CHECK(slower.statistics.filament == fast.statistics.filament);
     const LayerText tip = at(mm, slow);
     CHECK(parse(tip.body).tracks[0].feed_rate == 600);
     CHECK(tip.statistics.seconds < 1);
     CHECK(at(60 * mm, slow).body == at(60 * mm, plain).body);  // 6 s as it is
+    slow.min_layer_time = 60, slow.min_print_speed = 0.5;
+    CHECK(at(20 * mm, slow).statistics.seconds == Approx(60).epsilon(0.011));
+    slow.min_layer_time = 5;
     slow.min_print_speed = 100;                                // nothing gets faster
     CHECK(at(20 * mm, slow).body == fast.body);
 }

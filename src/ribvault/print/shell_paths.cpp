@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "ribvault/exact/predicates.hpp"
+#include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/print/cover_lines.hpp"
 #include "ribvault/print/gap_strips.hpp"
 #include "ribvault/print/islands.hpp"
@@ -56,22 +56,42 @@ PlannedTrack dot(Point at, Unit width) {
     return {{{TrackKind::thin_wall, width, false, {at}}}, Entry::fixed, no_stop};
 }
 
+double around(const Region& region) {
+    double sum = 0;
+    for (const Segment& e : edges_of(region)) sum += length(e.b - e.a);
+    return sum;
+}
+
+/// Where the centre lines of ring j run, 0 the outermost. With `room_only` not where there is no room for two of them
+/// side by side, at most 3/2 w between the rings before: that is left to a track of its own width. Tips are no such
+/// place: a track of their own would only cut them off.
+Region ring_centres(const Region& outline, int j, Unit w, bool room_only) {
+    const double width = static_cast<double>(w);
+    Region centres = mitred(outline, -(j + 0.5) * width);
+    if (!room_only) return centres;
+    const Region wide = mitred(mitred(centres, -width / 4), width / 4 + 10);
+    Region narrow;
+    for (Region& piece : clip_to_pieces(cl::ctDifference, centres, wide))
+        if (around(piece) >= 6 * width) std::move(piece.begin(), piece.end(), std::back_inserter(narrow));
+    return narrow.empty() ? centres : clip(cl::ctDifference, centres, narrow);
+}
+
 /// The perimeters by ring, j = 0 outermost, each after its neighbour of the same island, if that has one. Where a ring
 /// is hardly longer than a point there is room for a dot, if nothing is printed there already.
-void append_perimeters(const Region& outermost, Unit w, const Settings& settings, const TrackSettings& tracks,
-                       const Region& outline, LayerPlan& plan) {
+void append_perimeters(const std::vector<Region>& centres, Unit w, const TrackSettings& tracks, const Region& outline,
+                       LayerPlan& plan) {
     const double width = static_cast<double>(w);
     std::optional<Islands> islands;  // where rings have neighbours
-    if (settings.perimeters > 1) islands.emplace(outline);
+    if (centres.size() > 1) islands.emplace(outline);
     struct Ring {
         std::size_t track, island;
     };
     std::vector<std::vector<Ring>> rings;
     std::vector<Point> specks;
-    for (int j = 0; j < settings.perimeters; ++j) {
+    for (std::size_t j = 0; j < centres.size(); ++j) {
         rings.emplace_back();
-        for (Contour& line : j == 0 ? Region(outermost) : mitred(outline, -(j + 0.5) * width)) {
-            ToolPath path{j == 0 ? TrackKind::outer_perimeter : TrackKind::inner_perimeter, w, true, std::move(line)};
+        for (const Contour& line : centres[j]) {
+            ToolPath path{j == 0 ? TrackKind::outer_perimeter : TrackKind::inner_perimeter, w, true, line};
             if (2 * length(path) < width) {
                 specks.push_back(path.points.front());
                 continue;
@@ -112,19 +132,6 @@ std::optional<PlannedTrack> widest_dot(const Region& piece, Unit w) {
         found = dot(room.front().front(), width);
     }
     return found;
-}
-
-/// Where the outermost perimeters' centre lines run. Walls at most 3/2 w wide have no room for two of them side by side
-/// and are left to append_thin_walls; not tips, which a wall of its own would only cut off.
-Region outermost_centres(const Region& outline, Unit w, bool thin_walls) {
-    const double width = static_cast<double>(w);
-    Region centres = mitred(outline, -width / 2);
-    if (!thin_walls) return centres;
-    const Region wide = mitred(mitred(centres, -width / 4), width / 4 + 10);
-    Region walls;
-    for (Region& piece : clip_to_pieces(cl::ctDifference, centres, wide))
-        if (signed_area(piece) >= width * width) std::move(piece.begin(), piece.end(), std::back_inserter(walls));
-    return walls.empty() ? centres : clip(cl::ctDifference, centres, walls);
 }
 
 /// What is too narrow for a perimeter on both its sides, as tracks of width w; where these have no room either, of
@@ -209,35 +216,15 @@ Region printed_covers(const LayerPlan& plan, std::size_t first_cover, double mor
     return printed;
 }
 
-/// What no perimeter prints between those that are there, `apart` from them: strips too narrow for one more on both
-/// sides.
-Region between_perimeters(const Region& outline, int perimeters, double width, double apart) {
-    Region strips;
-    for (int j = 1; j < perimeters; ++j) {
-        const Region printed = mitred(mitred(outline, -(j + 0.5) * width), width / 2 + 2 * apart);
-        for (Contour& c : clip(cl::ctDifference, mitred(outline, -j * width - 2 * apart), printed))
-            strips.push_back(std::move(c));
-    }
-    return strips;
-}
+constexpr double apart = 10;  // lattice units: keeps Clipper away from nearly coincident borders
 
-/// Strips between perimeters, covers and cavity, and beside covers that do not reach their border, that are too narrow
-/// for a cover. The covers are the plan's tracks from `first_cover` on.
-void append_gap_fill(const Region& outline, const Region& cavity, int perimeters, Unit w,
-                     std::size_t first_cover, GapFill which, const Covering& covering, LayerPlan& plan) {
+/// Tracks in strips that are too narrow for anything else. What they fill is taken from plan.unfilled_area.
+std::vector<PlannedTrack> strip_tracks(const Region& left, Unit w, LayerPlan& plan) {
     const double width = static_cast<double>(w);
-    constexpr double apart = 10;  // lattice units: keeps Clipper away from nearly coincident borders
-    Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - 2 * apart), cavity);
-    for (Contour& c : between_perimeters(outline, perimeters, width, apart)) room.push_back(std::move(c));
-    if (signed_area(room) < width * width / 16) return;
-    const Region covers = printed_covers(plan, first_cover, 2 * apart);
-    const Region left = covers.empty() ? room : clip(cl::ctDifference, room, covers);
-    plan.unfilled_area += signed_area(left);
-    if (which == GapFill::none) return;
+    std::vector<PlannedTrack> strips;
     // Only where a track of w / 2 has room; most strips are narrower all along.
     const Region wide = mitred(mitred(left, -width / 4), width / 4 + apart);
-    if (wide.empty()) return;
-    std::vector<PlannedTrack> strips;
+    if (wide.empty()) return strips;
     for (const Region& piece : clip_to_pieces(cl::ctIntersection, wide, left)) {
         const double area = signed_area(piece);
         if (area < width * width / 2) continue;
@@ -251,7 +238,36 @@ void append_gap_fill(const Region& outline, const Region& cavity, int perimeters
             }
         std::move(along.begin(), along.end(), std::back_inserter(strips));
     }
-    append_strips(std::move(strips), which == GapFill::needed ? covering : Covering(), w, plan);
+    return strips;
+}
+
+/// Strips between perimeters that leave no room for one more on both sides.
+void append_between_perimeters(const Region& outline, const std::vector<Region>& centres, Unit w, GapFill which,
+                               LayerPlan& plan) {
+    const double width = static_cast<double>(w);
+    for (std::size_t j = 1; j < centres.size(); ++j) {
+        const Region left = clip(cl::ctDifference, mitred(outline, -static_cast<double>(j) * width - 2 * apart),
+                                 mitred(centres[j], width / 2 + 2 * apart));
+        if (signed_area(left) < width * width / 16) continue;
+        plan.unfilled_area += signed_area(left);
+        if (which == GapFill::none) continue;
+        std::vector<PlannedTrack> strips = strip_tracks(left, w, plan);
+        std::move(strips.begin(), strips.end(), std::back_inserter(plan.tracks));
+    }
+}
+
+/// Strips between perimeters, covers and cavity, and beside covers that do not reach their border, that are too narrow
+/// for a cover. The covers are the plan's tracks from `first_cover` on.
+void append_gap_fill(const Region& outline, const Region& cavity, int perimeters, Unit w, std::size_t first_cover,
+                     GapFill which, const Covering& covering, LayerPlan& plan) {
+    const double width = static_cast<double>(w);
+    const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - 2 * apart), cavity);
+    if (signed_area(room) < width * width / 16) return;
+    const Region covers = printed_covers(plan, first_cover, 2 * apart);
+    const Region left = covers.empty() ? room : clip(cl::ctDifference, room, covers);
+    plan.unfilled_area += signed_area(left);
+    if (which == GapFill::none) return;
+    append_strips(strip_tracks(left, w, plan), which == GapFill::needed ? covering : Covering(), w, plan);
 }
 
 }  // namespace
@@ -261,9 +277,12 @@ void append_shell_paths(const Slice& slice, const Region& exact_cavity, const Se
     const Unit w = tracks.width_on(slice.layer, settings.nozzle);
     const Region outline = simplify(slice.rounded, tracks.resolution),
                  cavity = simplify(exact_cavity, tracks.resolution);
-    const Region outermost = outermost_centres(outline, w, tracks.thin_walls);
-    append_perimeters(outermost, w, settings, tracks, outline, plan);
-    append_thin_walls(outline, outermost, w, settings.nozzle, tracks.thin_walls, plan);
+    std::vector<Region> centres;
+    for (int j = 0; j < settings.perimeters; ++j)
+        centres.push_back(ring_centres(outline, j, w, j == 0 ? tracks.thin_walls : tracks.fill_gaps != GapFill::none));
+    append_perimeters(centres, w, tracks, outline, plan);
+    append_thin_walls(outline, centres.front(), w, settings.nozzle, tracks.thin_walls, plan);
+    append_between_perimeters(outline, centres, w, tracks.fill_gaps, plan);
     const std::vector<Region> areas = cover_areas(
         outline, cavity, settings.perimeters, static_cast<double>(w), tracks.fill_gaps == GapFill::none);
     const std::size_t first_cover = plan.tracks.size();
