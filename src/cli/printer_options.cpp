@@ -71,7 +71,8 @@ void add_tracks(CLI::App* command, TrackSettings& t) {
                {{"aligned", Seam::aligned}, {"corner", Seam::corner}, {"nearest", Seam::nearest}},
                "where outer perimeters begin (default aligned)");
     group->add_flag_callback(
-        "--no-thin-walls", [&t] { t.thin_walls = false; }, "no tracks where the slice is narrower than one");
+        "--no-thin-walls", [&t] { t.thin_walls = false; },
+        "no tracks where the slice is narrower than one, two where it is a little wider");
     add_choice(group, "--fill-gaps", t.fill_gaps,
                {{"all", GapFill::all}, {"needed", GapFill::needed}, {"none", GapFill::none}},
                "which strips of the shell that are too narrow for covers get a track (default needed: what shows and "
