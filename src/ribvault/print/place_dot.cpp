@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "ribvault/exact/real_vector.hpp"
 
@@ -18,12 +19,35 @@ Vec nearest_on(const Segment& s, Vec p) {
     return a + t * d;
 }
 
-/// How far p is beyond the reach of all material.
-double excess(Vec p, const std::vector<Lane>& material, double rho) {
+/// How far p is beyond the lane's reach.
+double excess(Vec p, const Lane& lane, double rho) {
+    return norm(p - nearest_on(lane.centre, p)) - static_cast<double>(lane.width) / 2 - rho;
+}
+/// The least of them, or any that is at most `enough`.
+double excess(Vec p, const std::vector<Lane>& material, double rho, double enough) {
     double least = HUGE_VAL;
-    for (const Lane& lane : material)
-        least = std::min(least, norm(p - nearest_on(lane.centre, p)) - static_cast<double>(lane.width) / 2 - rho);
+    for (const Lane& lane : material) {
+        least = std::min(least, excess(p, lane, rho));
+        if (least <= enough) break;
+    }
     return least;
+}
+
+/// Those of the material that may be nearest to a sample of a cross-section, those nearest to its middle first: no
+/// farther from that than the nearest by more than the section's length.
+void nearest_to(const std::vector<Vec>& section, const std::vector<Lane>& material, double rho,
+                std::vector<Lane>& nearest) {
+    const Vec middle = 0.5 * (section.front() + section.back());
+    std::vector<std::pair<double, std::size_t>> order;
+    order.reserve(material.size());
+    for (std::size_t k = 0; k < material.size(); ++k) order.emplace_back(excess(middle, material[k], rho), k);
+    std::sort(order.begin(), order.end());
+    const double length = norm(section.back() - section.front()) + 1;
+    nearest.clear();
+    for (const auto& [beyond, k] : order) {
+        if (beyond > order.front().first + length) break;
+        nearest.push_back(material[k]);
+    }
 }
 
 /// Those that hold up something of the stretch.
@@ -71,10 +95,13 @@ struct Section {
 std::vector<Section> look_at(const HangingStretch& stretch, const std::vector<Lane>& material, Unit rho) {
     const std::vector<Lane> near = within_reach(stretch, material, static_cast<double>(rho));
     std::vector<Section> sections;
+    std::vector<Lane> nearest;
     for (const std::vector<Vec>& samples : sections_of(stretch)) {
         Section& section = sections.emplace_back();
+        nearest_to(samples, near, static_cast<double>(rho), nearest);
         for (const Vec p : samples) {
-            const double e = excess(p, near, static_cast<double>(rho));
+            // What is within reach by more than another sample need not be known.
+            const double e = excess(p, nearest, static_cast<double>(rho), std::min(section.excess, 0.0));
             if (e > section.excess) section.excess = e, section.worst = p;
             if (e > 0) section.beyond.push_back(p);
         }
