@@ -288,7 +288,7 @@ TEST_CASE("the first layer over a raft is pressed down by the second", "[gcode]"
     REQUIRE(beside.layers.size() == 5);
     CHECK(beside.layers[2].tracks.size() == 2);
     // Not by as much as this, and not where no raft is.
-    CHECK(heights_of_layers(print("1.4", ".98", "1.18")).contains("7/5"));
+    CHECK(heights_of_layers(print("1.09", ".98", "1.18")).contains("109/100"));
     CHECK(heights_of_layers(read(";Layer height: 0.2\nM83\n;LAYER:0\nG1 Z.3\nG1 X10 E1\n;LAYER:1\nG1 Z.38\nG1 X0 E1\n"))
               .contains("3/10"));
 }

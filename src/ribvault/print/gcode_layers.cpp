@@ -12,7 +12,7 @@ namespace {
 
 constexpr double pooled_mm = 0.25;  // shorter stretches share one flow
 constexpr std::int64_t widest = 100 * pm_per_mm;
-constexpr Int128 most_pressed = decimal_one / 2;  // 0.5 mm
+constexpr Int128 most_pressed = 3 * Int128{decimal_one} / 10;  // 0.3 mm: more is no overlap, but air
 
 GcodePoint flat(const std::array<Decimal, 3>& p) { return {p[0], p[1]}; }
 

@@ -45,7 +45,7 @@ public:
     ///
     /// The first layer over a raft is printed higher than the rest stands over it, which presses it down (CuraEngine's
     /// "Initial Layer Z Overlap"): where the file says no heights, its top is one layer below the second's, when that
-    /// moves it by no more than 0.5 mm. Heights: see resolve_heights. Widths that the file does not say: pushed volume
+    /// moves it by no more than 0.3 mm. Heights: see resolve_heights. Widths that the file does not say: pushed volume
     /// over length times height, the rectangle of the same cross-section, to 1 µm: narrower than the round-edged track
     /// that is printed by 0.21 times the height. Volumes of stretches below 0.25 mm are pooled, as E is rounded. Where
     /// a climb ends less than a layer over the last turn, its height is the mean of both.
