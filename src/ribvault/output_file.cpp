@@ -41,17 +41,24 @@ namespace {
 
 constexpr std::size_t buffer_size = 1 << 16;
 
+constexpr int most_links = 40;  // as the system follows
+
+/// Where a symbolic link points.
+fs::path target_of(const fs::path& link) {
+    std::error_code none;
+    const fs::path to = fs::read_symlink(link, none);
+    return to.is_absolute() ? to : link.parent_path() / to;
+}
+
 /// The number of a descriptor of this program that the path stands for, as /dev/stdout or /dev/fd/3 do; -1: none.
 int descriptor_named(fs::path path) {
     std::error_code none;
-    for (int links = 0; links < 40; ++links) {
+    for (int links = 0; links < most_links; ++links, path = target_of(path)) {
         const std::string folder = fs::canonical(path.parent_path(), none).string(), name = path.filename().string();
         if (!none && (folder == "/proc/self/fd" || folder == "/proc/" + std::to_string(::getpid()) + "/fd") &&
             !name.empty() && name.find_first_not_of("0123456789") == std::string::npos && name.size() < 10)
             return std::stoi(name);
         if (!fs::is_symlink(path, none)) return -1;
-        const fs::path to = fs::read_symlink(path, none);
-        path = to.is_absolute() ? to : path.parent_path() / to;
     }
     return -1;
 }
@@ -83,10 +90,7 @@ std::string_view remedy_for(int error_number) {
 
 fs::path follow_links(fs::path path) {
     std::error_code none;
-    for (int links = 0; links < 40 && fs::is_symlink(path, none); ++links) {
-        const fs::path to = fs::read_symlink(path, none);
-        path = to.is_absolute() ? to : path.parent_path() / to;
-    }
+    for (int links = 0; links < most_links && fs::is_symlink(path, none); ++links) path = target_of(path);
     return path;
 }
 

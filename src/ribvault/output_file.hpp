@@ -10,8 +10,7 @@ namespace ribvault {
 
 /// A file being written: under a temporary name in the folder of its target until commit(). Destroyed before that, it
 /// leaves nothing behind, and a file that was already there is untouched. A target that exists and is no regular file
-/// (a device, a pipe), or a
-/// descriptor of this program (/dev/stdout, /dev/fd/3), is written directly.
+/// (a device, a pipe), or a descriptor of this program (/dev/stdout, /dev/fd/3), is written directly.
 ///
 /// Every failure (no folder, no permission, disk full) throws Error (cannot_write) with the target's name and the
 /// system's reason, at the latest in finish(); the temporary file is then removed when the object is destroyed.

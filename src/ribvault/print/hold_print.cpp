@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/print/drop_tiny_steps.hpp"
@@ -212,8 +213,10 @@ private:
     }
     PrintPatches& patches() {
         if (!patches_)
-            patches_.emplace(std::move(held_.plan), beside_, walls_below_gap_,
-                             over_gap_ ? over_gap_->object : no_tracks_, settings_);
+            patches_.emplace(
+                std::move(held_.plan), beside_, walls_below_gap_,
+                over_gap_ ? std::span<const PrintedTrack>(over_gap_->object) : std::span<const PrintedTrack>(),
+                settings_);
         return *patches_;
     }
     void lay_patches() {
@@ -248,7 +251,6 @@ private:
     HeldLayer held_;
     const Cavity* beside_;
     const Region* walls_below_gap_;
-    const std::vector<PrintedTrack> no_tracks_;
     std::optional<PrintPatches> patches_;  ///< once something hangs that the tracks cannot be made to hold up
 };
 

@@ -27,7 +27,7 @@ HangingStretch HangingTrack::stretch_of_lane() const {
 }
 
 PrintPatches::PrintPatches(LayerPlan plan, const Cavity* beside, const Region* walls_below_gap,
-                           const std::vector<PrintedTrack>& object_over_gap, const Settings& settings)
+                           std::span<const PrintedTrack> object_over_gap, const Settings& settings)
     : plan_(std::move(plan)),
       tracks_(plan_),
       outline_(outline_of(plan_), units_per_mm / 2),
@@ -164,6 +164,7 @@ Segment PrintPatches::lowered(const Segment& s, std::size_t before) const {
     const Point dot = moved({(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2}, static_cast<double>(step() - half));
     return {dot, dot};
 }
+
 // With a removal gap only where walls may, and off the object's patches.
 bool PrintPatches::may_stand_outside(const Segment& s) const {
     return gap_patches_ ? gap_patches_->may_stand(s) : beside_ != nullptr;

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -34,7 +35,7 @@ public:
     /// layers. `object_over_gap`: what holds up with the patches what hangs over the gap. All but the plan must outlive
     /// the object.
     PrintPatches(LayerPlan plan, const Cavity* beside, const Region* walls_below_gap,
-                 const std::vector<PrintedTrack>& object_over_gap, const Settings& settings);
+                 std::span<const PrintedTrack> object_over_gap, const Settings& settings);
     PrintPatches(const PrintPatches&) = delete;
     PrintPatches& operator=(const PrintPatches&) = delete;
 
@@ -65,7 +66,7 @@ private:
     const PlanTracks tracks_;
     const PointLocation outline_;
     const Cavity* beside_;
-    const std::vector<PrintedTrack>& object_over_gap_;
+    const std::span<const PrintedTrack> object_over_gap_;
     const Settings& settings_;
     std::vector<Patch> patches_;
     std::set<std::tuple<TrackKind, Point, Point>> laid_;  ///< patches_

@@ -58,7 +58,7 @@ PlannedTrack dot(Point at, Unit width) {
 
 double around(const Region& region) {
     double sum = 0;
-    for (const Segment& e : edges_of(region)) sum += length(e.b - e.a);
+    for (const Segment& e : edges_of(region)) sum += length(e);
     return sum;
 }
 

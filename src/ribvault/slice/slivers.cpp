@@ -12,13 +12,6 @@ namespace {
 
 constexpr Unit half_width = 20;  // of what is too narrow
 
-/// A contour that Clipper's rounding may lose: nowhere wider than a few units.
-bool is_hairline(const Contour& contour) {
-    double around = 0;
-    for (std::size_t i = 0; i < contour.size(); ++i) around += length(contour[(i + 1) % contour.size()] - contour[i]);
-    return std::abs(signed_area({contour})) <= 2 * clip_rounding * around;
-}
-
 /// Whether the contour turns back at vertex i and runs beside itself no wider apart than rounding makes it.
 bool turns_back(const Contour& contour, std::size_t i) {
     const std::size_t n = contour.size();
@@ -37,28 +30,27 @@ bool has_slivers(const Slice& slice) {
     std::vector<std::size_t> starts;  // of the contours in `edges`
     std::vector<double> along;        // how far along its contour each begins
     for (const Contour& contour : slice.rounded) {
-        if (is_hairline(contour)) return true;
         starts.push_back(edges.size());
         double sum = 0;
         for (std::size_t i = 0; i < contour.size(); ++i) {
             if (turns_back(contour, i)) return true;
             edges.push_back({contour[i], contour[(i + 1) % contour.size()]});
             along.push_back(sum);
-            sum += length(edges.back().b - edges.back().a);
+            sum += length(edges.back());
         }
+        if (std::abs(signed_area({contour})) <= 2 * clip_rounding * sum) return true;  // nowhere wider than that
     }
     starts.push_back(edges.size());
     const NearestSegment tree(edges);
     for (std::size_t c = 0; c + 1 < starts.size(); ++c) {
         const std::size_t begin = starts[c], end = starts[c + 1];
-        const double around = along[end - 1] + length(edges[end - 1].b - edges[end - 1].a);
+        const double around = along[end - 1] + length(edges[end - 1]);
         // The way along the contour from the end of the earlier edge to the later one, and round the other way.
         const auto way = [&](std::size_t i, std::size_t j) {
             if (j < begin || j >= end) return HUGE_VAL;
             const auto [first, second] = std::minmax(i, j);
-            const double between = along[second] - along[first] - length(edges[first].b - edges[first].a);
-            return std::min(between,
-                            around - (along[second] + length(edges[second].b - edges[second].a)) + along[first]);
+            const double between = along[second] - along[first] - length(edges[first]);
+            return std::min(between, around - (along[second] + length(edges[second])) + along[first]);
         };
         for (std::size_t i = begin; i < end; ++i) {
             bool near = false;
