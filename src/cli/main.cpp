@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -84,12 +85,15 @@ int failed(const std::string& what, ribvault::ErrorKind kind) {
     return static_cast<int>(kind);
 }
 
-/// What was said must have been heard, but by a reader that has gone on purpose (`| head`).
+/// What was said must have been heard, but by a reader that has gone on purpose (`| head`). Why it was not is known of
+/// the last block only.
 int heard(int code) {
     errno = 0;
-    if ((std::fflush(stdout) == 0 && std::ferror(stdout) == 0) || errno == EPIPE) return code;
-    return failed(std::string("standard output cannot be written: ") + std::strerror(errno) +
-                      "; make room, or write it elsewhere",
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    const std::string why = errno != 0 ? std::string(": ") + std::strerror(errno) : std::string();
+    pollfd reader{STDOUT_FILENO, POLLOUT, 0};
+    if (::poll(&reader, 1, 0) == 1 && (reader.revents & POLLERR) != 0) return code;
+    return failed("standard output cannot be written" + why + "; make room, or write it elsewhere",
                   ribvault::ErrorKind::cannot_write);
 }
 

@@ -182,6 +182,24 @@ class Generate(unittest.TestCase):
         self.assertEqual(done.returncode, 6)
         self.assertIn("standard output cannot be written", done.stderr)
 
+    def test_a_reader_that_goes_is_no_error(self):
+        """More than a block of text, and a reader that has read none of it."""
+        (self.folder / "a.gcode").write_text("M83\n" + "".join(
+            ";TYPE:feature of a long name, number %d\n;WIDTH:0.4\n;HEIGHT:0.2\nG1 Z.2\nG1 X0 Y%d\nG1 X10 E1\n" % (k, k) for k in range(150)))
+        command = [PROGRAM, "verify", "a.gcode"]
+        whole = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        self.assertGreater(len(whole.stdout), 8192)
+        ours, theirs = os.pipe()
+        os.close(ours)
+        done = subprocess.run(command, cwd=self.folder, stdout=theirs, stderr=subprocess.PIPE, text=True)
+        os.close(theirs)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open("/dev/full", "w") as full:
+            done = subprocess.run(command, cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 6)
+        self.assertNotIn("Success", done.stderr)
+
     def test_a_limit_on_file_sizes_is_an_error(self):
         """As after `ulimit -f`, whose signal ends programs that do not ignore it."""
         def limit():
