@@ -182,6 +182,25 @@ class Generate(unittest.TestCase):
         self.assertEqual(done.returncode, 6)
         self.assertIn("standard output cannot be written", done.stderr)
 
+    def test_parts_that_touch_but_for_rounding_are_one_solid(self):
+        """A box on the side of another, turned: their common face lies a rounding apart."""
+        corners, faces = [], []
+        for low, high in (((0, 0, 0), (20, 20, 20)), ((20, 6, 6), (28, 14, 14))):
+            first = len(corners)
+            corners += [[(low, high)[k >> axis & 1][axis] for axis in (0, 1, 2)] for k in range(8)]
+            faces += [[first + k for k in face] for face in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))]
+        (self.folder / "boxes.off").write_text("OFF\n16 12 0\n" + "".join("%g %g %g\n" % tuple(c) for c in corners) +
+                                               "".join("4 %d %d %d %d\n" % tuple(f) for f in faces))
+        removed = 0
+        for angle in ("45", "15", "33", "70"):
+            done = self.run_program("boxes.off", "--rotate", "0,0," + angle, "-o", "a.gcode", "--report", "a.json")
+            self.assertEqual(done.returncode, 0, done.stdout)
+            layers = json.loads((self.folder / "a.json").read_text())["layers"]
+            removed += sum(layer["slivers_removed"] for layer in layers)
+            for layer in layers:
+                self.assertLess(layer["perimeter_length_mm"], 100, layer["layer"])  # both parts' own would be 109
+        self.assertGreater(removed, 0)
+
     def test_a_reader_that_goes_is_no_error(self):
         """More than a block of text, and a reader that has read none of it."""
         (self.folder / "a.gcode").write_text("M83\n" + "".join(

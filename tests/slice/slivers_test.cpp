@@ -1,6 +1,7 @@
 // Slits and slivers finer than the lattice: found, removed, and nothing else changed.
 #include "ribvault/slice/slivers.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -77,6 +78,17 @@ TEST_CASE("contours without area and spikes go, whatever their orientation", "[s
         CHECK(area_mm2(clean.rounded) == Approx(100).epsilon(1e-6));
         CHECK_FALSE(has_slivers(clean));
     }
+    // Rounding turns over contours without area.
+    for (const Unit at : {Unit{-5000}, Unit{1005000}})
+        for (const bool turned : {false, true}) {
+            INFO(at << " " << turned);
+            Slice slice;
+            slice.rounded = {{{0, 0}, {1000000, 0}, {1000000, 1000000}, {0, 1000000}},
+                             {{100, at}, {600, at}, {300, at + 1}}};
+            if (turned) std::reverse(slice.rounded[1].begin(), slice.rounded[1].end());
+            CHECK(has_slivers(slice));
+            CHECK(area_mm2(without_slivers(slice).rounded) == Approx(100).epsilon(1e-6));
+        }
     const Slice spike =
         slice_of({contour({{0, 0}, {10, 0}, {10, 4}, {17, 4 + 1e-9}, {10, 4 + 1e-8}, {10, 10}, {0, 10}})});
     CHECK(has_slivers(spike));
