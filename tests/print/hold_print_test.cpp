@@ -7,6 +7,9 @@
 #include "print/random_forest.hpp"
 #include "ribvault/print/drop_tiny_steps.hpp"
 #include "ribvault/print/printed_tracks.hpp"
+#include "ribvault/print/wide_walls.hpp"
+#include "ribvault/vault/erode_supports.hpp"
+#include "ribvault/vault/wall_stability.hpp"
 
 using namespace ribvault;
 
@@ -75,6 +78,39 @@ TEST_CASE("a gap over which a wall's side hangs is closed; with the paper's gaps
     CHECK(hold_print(square_shell(), trunk_and_branch(), &above, settings).plan.gaps == 0);
 }
 
+TEST_CASE("a wall with tracks side by side is eroded like one of one track, and needs no patches down to its foot") {
+    for (const int lines : {1, 2, 3}) {
+        Settings settings;
+        settings.wall_lines = lines;
+        settings.wall_lines_longer = 2 * mm;
+        SupportForest forest;
+        const auto root = add_vertex({.at = {0, 10 * mm}, .root = true}, forest),
+                   bend = add_vertex({.at = {mm, 10 * mm + 777}}, forest);
+        add_edge(root, bend, forest);
+        add_edge(bend, add_vertex({.at = {3 * mm, 11 * mm + 333}}, forest), forest);
+        PrintedLayer above;
+        int wide_layers = 0, patches = 0;
+        for (; num_edges(forest) > 0; forest = erode_supports(forest, settings.support_radius).forest) {
+            mark_wide_trees(forest, settings);
+            wide_layers += wide_trees(forest);
+            LayerPlan shell = square_shell();
+            const SupportForest walls = tapered_trees(forest, settings);
+            append_wide_walls(walls, {{{0, 0}, {20 * mm, 0}, {20 * mm, 20 * mm}, {0, 20 * mm}}}, settings, shell);
+            const HeldLayer held = hold_print(std::move(shell), walls, &above, settings);
+            CHECK(judge_print(above, *held.printed, settings).supported);
+            patches += held.patches;
+            above = *held.printed;
+        }
+        CAPTURE(lines);
+        CHECK(wide_layers == (lines == 1 ? 0 : lines == 2 ? 16 : 15));  // 3.38 mm by 0.2 mm, but for (lines - 1) d / 2
+        // Where one line follows on three, their sides hang.
+        if (lines < 3)
+            CHECK(patches == 0);
+        else
+            CHECK(patches < 10);
+    }
+}
+
 TEST_CASE("what hangs inside the outline gets patches, and they shrink from layer to layer") {
     PrintedLayer above = print_of({track(TrackKind::cover, false, {{5 * mm, 5 * mm}, {7 * mm, 5 * mm}})});
     SupportForest none;
@@ -114,6 +150,16 @@ TEST_CASE(
     CHECK(path.points.front().x == 0);
     CHECK(length(path) < 8000);
     CHECK(length(path) > 5000);
+}
+
+TEST_CASE("one dot holds up all the steps of a spur") {
+    // From the perimeter 0.5 mm into the air, in steps of 20 um.
+    std::vector<Point> steps;
+    for (Unit x = 0; x <= mm / 2; x += 2000) steps.push_back({x, 10 * mm + (x / 2000) % 2 * 300});
+    const PrintedLayer above = print_of({track(TrackKind::support, false, steps)});
+    const HeldLayer held = hold_print(square_shell(), {}, &above, {});
+    CHECK(judge_print(above, *held.printed, {}).supported);
+    CHECK(held.patches == 1);
 }
 
 TEST_CASE("spare strips are printed where something stands on them, and nowhere else") {

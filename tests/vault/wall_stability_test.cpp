@@ -70,6 +70,49 @@ TEST_CASE("long trees, tall trees and what grew out of them are wide, others are
     CHECK(most_slender(wall(false, 99, 99), settings).ratio == Approx(25));
 }
 
+TEST_CASE("wide trees are drawn back from their tips, along the longest way, and end as one track does") {
+    Settings settings;
+    settings.wall_lines = 3;  // 0.4 mm
+    SupportForest forest;
+    const auto add = [&](Unit x, Unit y, bool root) {
+        return add_vertex({.at = {x, y}, .root = root, .wide = true}, forest);
+    };
+    const auto root = add(0, 0, true), joint = add(5 * mm, 0, false), end = add(5 * mm + 25000, 0, false);
+    add_edge(root, joint, forest), add_edge(end, joint, forest);
+    add_edge(joint, add(5 * mm, 30000, false), forest);  // two short branches, 0.25 and 0.3 mm
+    SupportForest left = tapered_trees(forest, settings);
+    REQUIRE(num_vertices(left) == 2);
+    REQUIRE(num_edges(left) == 1);
+    CHECK(left[0].at == Point{0, 0});
+    CHECK(left[0].root);
+    CHECK(left[1].at == Point{5 * mm - 10000, 0});
+
+    add_edge(joint, add(5 * mm, -mm, false), forest);
+    left = tapered_trees(forest, settings);
+    CHECK(num_edges(left) == 2);
+    CHECK(length(left) == Approx(6.0 * mm - 40000));
+
+    forest[end].root = true;  // between roots a wall stays
+    CHECK(length(tapered_trees(forest, settings)) == Approx(6.0 * mm - 40000 + 25000));
+    for (auto [v, last] = vertices(forest); v != last; ++v) forest[*v].wide = false;
+    CHECK(length(tapered_trees(forest, settings)) == Approx(length(forest)));
+}
+
+TEST_CASE("of a tree that is all tip one line is printed, but where it stands free") {
+    Settings settings;
+    settings.wall_lines = 3;
+    SupportForest forest = wall(false, 99, 99);
+    CHECK(marked(forest, settings) == 1);
+    forest[1].at.x = 40000;
+    CHECK(marked(forest, settings) == 0);
+    forest[1].at.x = 40001;
+    CHECK(marked(forest, settings) == 1);
+    forest[1].at.x = 40000, forest[0].free = true;
+    CHECK(marked(forest, settings) == 1);
+    const SupportForest left = tapered_trees(forest, settings);
+    CHECK((num_vertices(left) == 1 && left[0].root));
+}
+
 TEST_CASE("a vertex between two others carries what stands there, and is wide when one of them is") {
     const SupportVertex a{.at = {0, 0}, .root = true, .wide = true, .standing = 10},
         b{.at = {10 * mm, 0}, .standing = 20};

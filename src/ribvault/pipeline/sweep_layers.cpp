@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "ribvault/error.hpp"
@@ -10,6 +11,7 @@
 #include "ribvault/pipeline/thread_limit.hpp"
 #include "ribvault/print/wide_walls.hpp"
 #include "ribvault/vault/length_bound.hpp"
+#include "ribvault/vault/wall_stability.hpp"
 #include "ribvault/verify/outside_outline.hpp"
 
 namespace ribvault {
@@ -111,10 +113,13 @@ private:
         const bool over_gap = settings_.support_gap_layers > 0;
         const bool below_known = over_gap && newest && newest->outside->walls;
         const PrintOverGap* print_over_gap = over_gap ? find_print_over_gap(layer) : nullptr;
-        append_wide_walls(layer.forest, material.cavity->region, settings_, *material.shell);
+        std::optional<SupportForest> tapered;
+        if (settings_.wall_lines > 1) tapered = tapered_trees(layer.forest, settings_);
+        const SupportForest& walls = tapered ? *tapered : layer.forest;
+        append_wide_walls(walls, material.cavity->region, settings_, *material.shell);
         layer.held =
-            hold_print(std::move(*material.shell), layer.forest, printed_above_.get(), settings_,
-                       material.outside.get(), print_over_gap, below_known ? &*newest->outside->walls : nullptr);
+            hold_print(std::move(*material.shell), walls, printed_above_.get(), settings_, material.outside.get(),
+                       print_over_gap, below_known ? &*newest->outside->walls : nullptr);
         layer.printed_above = std::exchange(printed_above_, layer.held.printed);
         const std::size_t kept = static_cast<std::size_t>(settings_.support_gap_layers) + 1;
         if (settings_.stands_off()) {

@@ -106,9 +106,25 @@ void PrintPatches::drop_repeated(std::size_t before) {
                    patches_.end());
 }
 
+// The farthest from the tracks first: what holds that up often holds up what is nearer too. The other way round a spur
+// of many steps above would get a dot for each of them, on every layer below.
+std::vector<HangingTrack> PrintPatches::farthest_first(const std::vector<HangingTrack>& open) const {
+    if (tracks_.segments().empty()) return open;
+    std::vector<std::pair<double, std::size_t>> order;
+    for (const HangingTrack& hanging : open) {
+        const Segment s = hanging.place();
+        const auto way = [&](Point p) { return tracks_.segments().nearest(p).distance.value(); };
+        order.emplace_back(-std::max(way(s.a), way(s.b)), order.size());
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<HangingTrack> sorted;
+    for (const auto& [way, k] : order) sorted.push_back(open[k]);
+    return sorted;
+}
+
 void PrintPatches::add(const std::vector<HangingTrack>& open, bool late) {
     const std::size_t before = patches_.size();
-    for (const HangingTrack& hanging : open) {
+    for (const HangingTrack& hanging : farthest_first(open)) {
         const std::optional<Segment> place = place_under(hanging, late, before);
         if (!place) continue;
         const bool outside = outline_.locate(place->a) == Side::outside || outline_.locate(place->b) == Side::outside;

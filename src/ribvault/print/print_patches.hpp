@@ -51,6 +51,7 @@ public:
     Unit lay(LayerPlan& plan) const;
 
 private:
+    std::vector<HangingTrack> farthest_first(const std::vector<HangingTrack>& open) const;
     Point nearest_material(Point p, std::size_t patches) const;
     std::vector<Lane> material_near(const Segment& stretch, Unit wider = 0) const;
     std::optional<PlacedDot> place(const HangingTrack& hanging) const;

@@ -1,6 +1,7 @@
 #include "ribvault/print/wide_walls.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/exact/point_location.hpp"
@@ -11,7 +12,45 @@ namespace {
 
 namespace cl = ClipperLib;
 
-constexpr double arc_tolerance = 100;  ///< lattice units
+constexpr double arc_tolerance = 1000;  ///< lattice units; more corners than firmware keeps up with otherwise
+
+/// A disc as a polygon, counter-clockwise. Its corners lie in the same directions on all layers: what is around a wall
+/// that is drawn back lies within what is around the wall above, by no more and no less than the walls do.
+Contour disc(double radius) {
+    const int corners = 4 * static_cast<int>(std::ceil(M_PI / 4 / std::acos(1 - arc_tolerance / radius)));
+    Contour contour;
+    for (int k = 0; k < corners; ++k) {
+        const double angle = 2 * M_PI * k / corners;
+        contour.push_back({round_to_lattice(radius * std::cos(angle)), round_to_lattice(radius * std::sin(angle))});
+    }
+    return contour;
+}
+
+/// What a convex polygon covers on its way along a segment.
+Contour swept(const Contour& polygon, const Segment& along) {
+    const Point way = along.b - along.a;
+    const auto is_ahead = [&](std::size_t k) {  // the side from corner k to the next faces forwards
+        const Point side = polygon[(k + 1) % polygon.size()] - polygon[k];
+        return side.y * way.x - side.x * way.y > 0;
+    };
+    Contour hull;
+    bool ahead = is_ahead(polygon.size() - 1);
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        hull.push_back(polygon[k] + (ahead ? along.b : along.a));
+        const bool next = is_ahead(k);
+        if (next != ahead) hull.push_back(polygon[k] + (next ? along.b : along.a));
+        ahead = next;
+    }
+    return hull;
+}
+
+/// The outlines of what lies around the lines.
+Region around(const std::vector<Segment>& lines, double distance) {
+    const Contour polygon = disc(distance);
+    Region each;
+    for (const Segment& line : lines) each.push_back(swept(polygon, line));
+    return clip(cl::ctUnion, each, {});
+}
 
 std::vector<Segment> wide_lines(const SupportForest& forest) {
     std::vector<Segment> lines;
@@ -61,7 +100,7 @@ void append_wide_walls(const SupportForest& forest, const Region& cavity, const 
     if (lines.empty()) return;
     const PointLocation location(edges_of(cavity), units_per_mm);
     for (int twice = settings.wall_lines - 1; twice > 0; twice -= 2)
-        for (Contour& outline : offset(lines, 0.5 * twice * static_cast<double>(settings.nozzle), arc_tolerance))
+        for (Contour& outline : around(lines, 0.5 * twice * static_cast<double>(settings.nozzle)))
             append_outline(std::move(outline), cavity, location, settings.nozzle, plan);
 }
 

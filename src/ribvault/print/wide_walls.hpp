@@ -8,7 +8,7 @@ namespace ribvault {
 /// Adds the tracks beside the centre lines of the wide trees of `forest` (SupportVertex::wide): the outlines of the
 /// trees at distances d/2, 3d/2, ... for an even number of lines, d, 2d, ... for an odd one, inside the cavity. So each
 /// wall is walked around its tips without a stop. The centre lines themselves, which an odd number has, are for
-/// append_support_paths. Corners are rounded by chords at most 1 µm inside the arc. Whether the print is held up is
+/// append_support_paths. Corners are rounded by chords at most 10 µm inside the arc. Whether the print is held up is
 /// decided afterwards, by what is in the plan then. Precondition: settings.wall_lines >= 1; nothing happens with 1.
 void append_wide_walls(const SupportForest& forest, const Region& cavity, const Settings& settings, LayerPlan& plan);
 

@@ -15,7 +15,8 @@ struct SupportVertex {
                         ///< side), or is free
     bool free = false;  ///< a root away from the shell: its tree stands on the layer below alone (vault/free_trees.hpp)
     bool outside = false;  ///< its tree stands outside the slice: an external support
-    /// Its tree is printed with settings.wall_lines tracks side by side, on this layer and all below.
+    /// Its tree is printed with settings.wall_lines tracks side by side, on this layer and all below on which it is
+    /// long enough for that (vault/wall_stability.hpp).
     bool wide = false;
     std::int32_t standing = 0;  ///< so many layers of the wall stand on this place, this one not counted
 };

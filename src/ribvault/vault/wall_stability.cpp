@@ -1,9 +1,10 @@
 #include "ribvault/vault/wall_stability.hpp"
 
-#include <boost/graph/connected_components.hpp>
-
 #include <algorithm>
+#include <boost/graph/connected_components.hpp>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <queue>
 #include <vector>
 
@@ -76,6 +77,55 @@ std::vector<double> distances_to_roots(const SupportForest& forest) {
     return distance;
 }
 
+/// Where the tips of wide trees are drawn back to (tapered_trees).
+class Taper {
+public:
+    Taper(const SupportForest& forest, const Settings& settings)
+        : forest_(forest),
+          by_(0.5 * static_cast<double>((settings.wall_lines - 1) * settings.nozzle)),
+          way_(num_vertices(forest), std::numeric_limits<double>::infinity()),
+          towards_root_(num_vertices(forest)) {
+        std::vector<double> longest(num_vertices(forest), 0);
+        std::vector<std::size_t> walls(num_vertices(forest)), tips;
+        for (std::size_t v = 0; v < walls.size(); ++v) {
+            walls[v] = out_degree(v, forest);
+            if (walls[v] == 1 && !forest[v].root) tips.push_back(v);
+        }
+        while (!tips.empty()) {
+            const std::size_t v = tips.back();
+            tips.pop_back();
+            way_[v] = longest[v];
+            for (auto [next, end] = adjacent_vertices(v, forest); next != end; ++next) {
+                const std::size_t w = *next;
+                if (std::isfinite(way_[w])) continue;
+                towards_root_[v] = w;
+                longest[w] = std::max(longest[w], longest[v] + length_to_root(v));
+                if (--walls[w] == 1 && !forest[w].root) tips.push_back(w);
+            }
+        }
+    }
+
+    /// What is left of the wall a-b; nothing, or the wall with the end away from the root drawn back.
+    std::optional<Segment> left_of(std::size_t a, std::size_t b) const {
+        const auto end = [&](std::size_t v, std::size_t other) {
+            const bool drawn_back = way_[v] < by_ && towards_root_[v] == other;
+            if (!drawn_back) return std::optional(forest_[v].at);
+            const double l = length_to_root(v), back = by_ - way_[v];
+            return back < l ? std::optional(part_way(forest_[v].at, forest_[other].at, back / l)) : std::nullopt;
+        };
+        const std::optional<Point> from = end(a, b), to = end(b, a);
+        return from && to ? std::optional(Segment{*from, *to}) : std::nullopt;
+    }
+
+private:
+    double length_to_root(std::size_t v) const { return length(forest_[towards_root_[v]].at - forest_[v].at); }
+
+    const SupportForest& forest_;
+    double by_;                ///< lattice units
+    std::vector<double> way_;  ///< the longest way to a tip, away from roots; infinite at and between roots
+    std::vector<std::size_t> towards_root_;  ///< the vertex next to it on the way to the root, where there is one way
+};
+
 }  // namespace
 
 SlenderPlace most_slender(const SupportForest& forest, const Settings& settings) {
@@ -95,14 +145,41 @@ void mark_wide_trees(SupportForest& forest, const Settings& settings) {
     const std::vector<double> to_root = distances_to_roots(forest);
     std::vector<std::size_t> tree(num_vertices(forest));
     if (!tree.empty()) connected_components(forest, tree.data());
-    std::vector<char> wide(num_vertices(forest), 0);
+    std::vector<char> wide(num_vertices(forest), 0), left(num_vertices(forest), 0);
     for (std::size_t v = 0; v < tree.size(); ++v)
         if (forest[v].wide || to_root[v] > static_cast<double>(settings.wall_lines_longer) ||
             standing_height(forest[v], settings) > static_cast<double>(settings.wall_lines_taller))
             wide[tree[v]] = 1;
-    for (std::size_t v = 0; v < tree.size(); ++v) forest[v].wide = wide[tree[v]] != 0;
+    const Taper taper(forest, settings);
+    for (auto [e, end] = edges(forest); e != end; ++e)
+        if (taper.left_of(source(*e, forest), target(*e, forest))) left[tree[source(*e, forest)]] = 1;
+    for (std::size_t v = 0; v < tree.size(); ++v)
+        if (forest[v].free) left[tree[v]] = 1;
+    for (std::size_t v = 0; v < tree.size(); ++v) forest[v].wide = wide[tree[v]] && left[tree[v]];
     for (auto [e, end] = edges(forest); e != end; ++e)
         if (forest[source(*e, forest)].wide) forest[*e].to_junction = true;
+}
+
+SupportForest tapered_trees(const SupportForest& forest, const Settings& settings) {
+    const Taper taper(forest, settings);
+    SupportForest result;
+    std::vector<std::size_t> vertex(num_vertices(forest), 0);
+    std::vector<char> there(num_vertices(forest), 0);
+    const auto add = [&](std::size_t v, Point at) {
+        if (!there[v]) vertex[v] = add_vertex(forest[v], result), there[v] = 1;
+        if (at != forest[v].at) result[vertex[v]].at = at;
+        return vertex[v];
+    };
+    for (auto [e, end] = edges(forest); e != end; ++e) {
+        const std::size_t a = source(*e, forest), b = target(*e, forest);
+        const auto left = forest[a].wide ? taper.left_of(a, b) : std::optional(Segment{forest[a].at, forest[b].at});
+        if (!left) continue;
+        const std::size_t from = add(a, left->a), to = add(b, left->b);
+        add_edge(from, to, forest[*e], result);
+    }
+    for (std::size_t v = 0; v < there.size(); ++v)
+        if (!there[v] && (out_degree(v, forest) == 0 || (forest[v].wide && forest[v].free))) add(v, forest[v].at);
+    return result;
 }
 
 int wide_trees(const SupportForest& forest) {

@@ -26,8 +26,13 @@ SlenderPlace most_slender(const SupportForest& forest, const Settings& settings)
 
 /// Marks the trees (SupportVertex::wide; their walls have no gaps at junctions, SupportEdge::to_junction) that reach
 /// farther from their roots than settings.wall_lines_longer, that carry more than settings.wall_lines_taller, or that
-/// grew out of such a tree. Does nothing with one line a wall.
+/// grew out of such a tree; not those of which tapered_trees would leave nothing. Does nothing with one line a wall.
 void mark_wide_trees(SupportForest& forest, const Settings& settings);
+
+/// The forest as it is printed: the tips of wide trees are drawn back, along the longest way to each place, by as much
+/// as the tracks around them add to its reach beyond one track, (wall_lines - 1) d / 2. So wide walls end where walls
+/// of one line do, and what holds up the tip of those holds up theirs. Roots, and walls between roots, stay.
+SupportForest tapered_trees(const SupportForest& forest, const Settings& settings);
 
 /// How many trees are marked.
 int wide_trees(const SupportForest& forest);
