@@ -1,7 +1,8 @@
-#include "print/gcode_text.hpp"
-
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
+#include "print/gcode_text.hpp"
 #include "ribvault/print/gcode_arcs.hpp"
 
 using namespace ribvault;
@@ -151,6 +152,36 @@ TEST_CASE("arcs become chords within the stated bound", "[gcode][arc]") {
             }
         }
         CHECK(sum == Approx(c.radius * c.turn).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("chords keep the bound where the radius changes, and in the smallest circles", "[gcode][arc]") {
+    struct Case {
+        const char* text;
+        double cx, r0, r1, turn;
+    };  // counter-clockwise from the right of the centre
+    const double small = 0.00089, turn = std::atan2(0.299 * std::sin(0.15), 0.299 * std::cos(0.15));
+    char spiral[100];
+    std::snprintf(spiral, sizeof spiral, "G3 X%.5f Y%.5f I-0.2 J0 E1", 9.8 + 0.299 * std::cos(0.15),
+                  0.299 * std::sin(0.15));
+    for (const Case& c : {Case{"G3 X10 Y0 I-0.00089 J0 E1", 10 - small, small, small, 2 * std::numbers::pi},
+                          Case{spiral, 9.8, 0.2, 0.299, turn}}) {
+        INFO(c.text);
+        const GcodePrint print = read(std::string("G1 X10 Y0 Z.2\n") + c.text + "\n");
+        const GcodeLayer& l = print.layers[0];
+        REQUIRE_FALSE(l.tracks.empty());
+        for (int k = 0; k <= 1000; ++k) {  // every place of the curve is near a chord
+            const double angle = c.turn * k / 1000, r = c.r0 + (c.r1 - c.r0) * k / 1000;
+            const double px = c.cx + r * std::cos(angle), py = r * std::sin(angle);
+            double least = 1;
+            for (const GcodeTrack& t : l.tracks) {
+                const double ax = to_double(l.points[t.a].x), ay = to_double(l.points[t.a].y),
+                             ux = to_double(l.points[t.b].x) - ax, uy = to_double(l.points[t.b].y) - ay;
+                const double s = std::clamp(((px - ax) * ux + (py - ay) * uy) / (ux * ux + uy * uy), 0.0, 1.0);
+                least = std::min(least, std::hypot(px - ax - s * ux, py - ay - s * uy));
+            }
+            REQUIRE(least < arc_bound_mm);
+        }
     }
 }
 

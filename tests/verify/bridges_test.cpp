@@ -33,6 +33,21 @@ TEST_CASE("a straight span between two piers is a bridge up to its length", "[br
     CHECK(bridges(upper, {0}, 5.19).empty());
 }
 
+TEST_CASE("a span exactly as long as the limit is a bridge, wherever it lies", "[bridges]") {
+    for (const double x : {0.0, 0.1, 37.3, 123.456})
+        for (const double limit : {0.1, 1.7, 5.0}) {
+            const Rational from = Rational(x), to = from + 2 + Rational(limit) + 2 * (radius + width / 2) + 2;
+            const PrintedLayer upper{{{{from, 0}, {to, 0}, width, 0, 0}}},
+                lower{{{{from, 0}, {from + 2, 0}, width, 0, 0}, {{to - 2, 0}, {to, 0}, width, 0, 0}}};
+            PrintedOptions lines;
+            lines.areas = lines.regions = false;
+            const PrintedVerdict verdict = verify_printed(upper, lower, radius, lines);
+            CAPTURE(x, limit);
+            CHECK(find_bridges(upper, {0}, {}, verdict, limit).size() == 1);
+            CHECK(find_bridges(upper, {0}, {}, verdict, limit - 1e-6).empty());
+        }
+}
+
 TEST_CASE("a bridge may have joints, if it is straight", "[bridges]") {
     const PrintedLayer straight{{track(0, 0, 4, 0), track(4, 0, 6, 0.005), track(6, 0.005, 10, 0)}};
     REQUIRE(bridges(straight, {0, 1, 1}, 6).size() == 1);

@@ -194,13 +194,28 @@ private:
         if (job_.bed_only && job_.longest_bridge)
             refuse("--bed-only and --allow-bridges: bridges are judged over the object too; give one of them");
         if (job_.bed_only && job_.inside) refuse("--bed-only is about what --inside leaves out; give one of them");
-        const auto has_outline = [&](const GcodeLayer& layer) {
+        if (job_.inside || object_reach_ != 0 || job_.support_gap_layers > 0) look_for_outlines();
+    }
+
+    /// What lies over a layer is outside where no loop bounds it.
+    void look_for_outlines() {
+        bool any_loop = false;
+        for (const GcodeLayer& layer : print_.layers) {
             const std::vector<char> outline = outline_tracks(print_.features, layer);
-            return std::find(outline.begin(), outline.end(), 1) != outline.end();
-        };
-        if (job_.inside && std::none_of(print_.layers.begin(), print_.layers.end(), has_outline))
+            any_loop = any_loop || std::find(outline.begin(), outline.end(), 1) != outline.end();
+            if (layer.layer + 1 == print_.layer_count || has_whole_outline(print_.features, layer)) continue;
+            std::vector<int>& without = report_.layers_without_outline;
+            if (without.empty() || without.back() != layer.layer) without.push_back(layer.layer);
+        }
+        if (job_.inside && !any_loop)
             refuse("--inside needs closed loops of outer perimeter, and " + job_.gcode.string() +
                    " has none that end exactly where they begin; judge it without");
+        if (const std::vector<int>& without = report_.layers_without_outline; !without.empty())
+            job_.warn("on " + std::to_string(without.size()) + " layers (the lowest is layer " +
+                      std::to_string(without.front()) +
+                      ") there is no outer perimeter, or some of it does not end where it begins and bounds nothing: "
+                      "what lies over that counts as outside" +
+                      (job_.inside ? " and is not judged" : ""));
     }
 
     void choose_features() {

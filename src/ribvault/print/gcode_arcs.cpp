@@ -49,8 +49,10 @@ std::string arc_points(const GcodeMotion& m, std::vector<std::array<Decimal, 3>>
     } else {
         while (turn <= 0) turn += full;
     }
-    const double radius = std::max(r0, r1);
-    const double step = radius > sagitta ? 2 * std::acos(1 - sagitta / radius) : full;
+    // Between radii r0 and r1 the curve is r(φ) = r0 + s φ, its second derivative no longer than r + 2 s; a chord over
+    // an angle φ lies within an eighth of that times φ² of it.
+    const double bend = std::max(r0, r1) + 2 * std::abs(r1 - r0) / std::abs(turn);
+    const double step = std::sqrt(8 * sagitta / bend);
     const auto count = std::max<long>(1, static_cast<long>(std::ceil(std::abs(turn) / step)));
     const double rise = to_double(m.to[2] - m.from[2]);
     points.clear();

@@ -1,6 +1,7 @@
 #include "ribvault/print/printed_layers.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ribvault/print/gcode_arcs.hpp"
 
@@ -50,8 +51,12 @@ PrintedLayer material_below(const GcodePrint& print, std::size_t entry) {
     return material;
 }
 
-std::vector<char> outline_tracks(const std::vector<GcodeFeature>& features, const GcodeLayer& layer) {
-    std::vector<char> result(layer.tracks.size(), 0);
+namespace {
+
+/// Calls visit(first, end, closed) for every run of tracks that follow each other without a travel and hold outer
+/// perimeter; `closed`: it ends exactly where it begins.
+template <class Visit>
+void visit_outer_walls(const std::vector<GcodeFeature>& features, const GcodeLayer& layer, const Visit& visit) {
     const std::vector<GcodeTrack>& tracks = layer.tracks;
     for (std::size_t k = 0; k < tracks.size();) {
         std::size_t end = k + 1;
@@ -62,12 +67,33 @@ std::vector<char> outline_tracks(const std::vector<GcodeFeature>& features, cons
             if (tracks[end].feature != tracks[k].feature && !(of_wall(k) && of_wall(end))) break;
             is_outer = is_outer || feature(end).outer_wall;
         }
-        if (is_outer && end - k > 2 && layer.points[tracks[k].a] == layer.points[tracks[end - 1].b])
-            std::fill(result.begin() + static_cast<std::ptrdiff_t>(k),
-                      result.begin() + static_cast<std::ptrdiff_t>(end), 1);
+        if (is_outer) visit(k, end, end - k > 2 && layer.points[tracks[k].a] == layer.points[tracks[end - 1].b]);
         k = end;
     }
+}
+
+}  // namespace
+
+std::vector<char> outline_tracks(const std::vector<GcodeFeature>& features, const GcodeLayer& layer) {
+    std::vector<char> result(layer.tracks.size(), 0);
+    visit_outer_walls(features, layer, [&](std::size_t first, std::size_t end, bool closed) {
+        if (closed)
+            std::fill(result.begin() + static_cast<std::ptrdiff_t>(first),
+                      result.begin() + static_cast<std::ptrdiff_t>(end), 1);
+    });
     return result;
+}
+
+bool has_whole_outline(const std::vector<GcodeFeature>& features, const GcodeLayer& layer) {
+    bool any_closed = false, left_open = false;
+    visit_outer_walls(features, layer, [&](std::size_t first, std::size_t end, bool closed) {
+        any_closed = any_closed || closed;
+        if (closed || end - first < 3) return;
+        const GcodePoint &a = layer.points[layer.tracks[first].a], &b = layer.points[layer.tracks[end - 1].b];
+        const double apart = std::hypot(to_double(b.x) - to_double(a.x), to_double(b.y) - to_double(a.y));
+        left_open = left_open || apart <= 1e-9 * static_cast<double>(layer.tracks[first].width);
+    });
+    return any_closed && !left_open;
 }
 
 std::vector<char> continued_tracks(const GcodeLayer& layer) {

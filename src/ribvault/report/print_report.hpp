@@ -97,6 +97,9 @@ struct PrintReport {
     double support_gap_mm = 0;
     int support_gap_layers = 0;    ///< the object could lie on material so many layers farther down
     bool bed_only = false;         ///< supports had to lie on supports
+    /// Numbers of layers, ascending, whose outline is not whole (print/printed_layers.hpp): what lies over what is
+    /// missing counted as outside. Only where that matters.
+    std::vector<int> layers_without_outline;
 
     std::vector<HangingFeature> features;
     std::vector<HangingLayer> layers;

@@ -165,6 +165,7 @@ std::string to_json(const PrintReport& r) {
     const Json verdict{{"supported", r.supported},
                        {"layers", r.layer_count},
                        {"layers_unsupported", unsupported},
+                       {"layers_without_outline", r.layers_without_outline},
                        {"stages", stages(r.stages)}};
     const Json totals{{"length_mm", measured(r.length_mm)},
                       {"unsupported_mm", bounds(r.unsupported_mm)},

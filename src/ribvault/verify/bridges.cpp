@@ -9,6 +9,8 @@ namespace ribvault {
 namespace {
 
 constexpr double straight_mm = 0.01;
+/// Ends are known in doubles, rounded outward: a span as long as the limit must not fail by the rounding.
+constexpr double rounding = 0x1p-40;
 constexpr double joint = 1e-9;  // mm: a piece that comes so near to its track's end reaches it
 
 using Vector = std::array<double, 2>;
@@ -73,7 +75,7 @@ std::vector<Bridge> find_bridges(const PrintedLayer& upper, const std::vector<ch
         const bool held_before =
             !starts_at_joint(pieces[first]) || (joined(before) && before > 0 && is_judged(before - 1));
         const bool held_after = !ends_at_joint(upper, pieces[last]) || (joined(after) && is_judged(after));
-        if (!held_before || !held_after || sum > longest || !is_straight(points)) continue;
+        if (!held_before || !held_after || sum > longest * (1 + rounding) || !is_straight(points)) continue;
         Bridge bridge;
         for (std::size_t k = first; k <= last; ++k) bridge.pieces.push_back(k);
         bridge.length_mm = std::nextafter(sum, std::numeric_limits<double>::infinity());

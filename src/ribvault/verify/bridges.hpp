@@ -15,9 +15,9 @@ struct Bridge {
 };
 
 /// The pieces that violate equation (1), joined over the joints of a path, which are a bridge: no longer than `longest`
-/// mm, straight to within 0.01 mm, and on both sides the path goes on with material that is held up. `continues` says
-/// of each track of `upper` whether it starts where the one before it ended, without a travel; a path's free end
-/// bridges nothing.
+/// mm (to within 1e-12 of it), straight to within 0.01 mm, and on both sides the path goes on with material that is
+/// held up. `continues` says of each track of `upper` whether it starts where the one before it ended, without a
+/// travel; a path's free end bridges nothing.
 std::vector<Bridge> find_bridges(const PrintedLayer& upper, const std::vector<char>& continues,
                                  const std::vector<char>& judged, const PrintedVerdict& verdict, double longest);
 
