@@ -1,5 +1,6 @@
 #include "ribvault/pipeline/generate.hpp"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
@@ -7,6 +8,7 @@
 #include <set>
 
 #include "ribvault/error.hpp"
+#include "ribvault/pipeline/verify_print.hpp"
 
 using namespace ribvault;
 namespace fs = std::filesystem;
@@ -200,6 +202,38 @@ TEST_CASE("the summary names the first five layers that are refuted, what may he
     CHECK(text.find("what may help") != std::string::npos);
     CHECK(text.ends_with("report    " + job.report->string() + "\n"));
     CHECK(verdict_text(report, job).find("NOT PROVED") != std::string::npos);
+}
+
+TEST_CASE("what is printed over places too narrow to print begins in the air, and that is said") {
+    // A wall of 20 mm that widens from 0.05 to 0.8 mm, standing on its edge, beside a wall as thick all the way up.
+    const Folder folder;
+    std::string text = "OFF\n16 12 0\n";
+    for (const auto& [foot, roof, y] : {std::array{.025, .4, 0.}, {2., 2., 9.}})
+        for (const auto& [z, half] : {std::pair("0", foot), std::pair("10", roof)})
+            for (const auto& [x, side] :
+                 {std::pair("0 ", -1), std::pair("20 ", -1), std::pair("20 ", 1), std::pair("0 ", 1)})
+                text += x + std::to_string(y + side * half) + ' ' + z + '\n';
+    for (const int k : {0, 8})
+        for (const auto& face :
+             {std::array{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}) {
+            text += '4';
+            for (const int v : face) text += ' ' + std::to_string(k + v);
+            text += '\n';
+        }
+    Job job = job_for(folder.file("wedge.off", text));
+    job.gcode = folder.path / "wedge.gcode";
+    const RunReport report = generate(job);
+    CHECK(report.verdict.external_overhangs.empty());
+    REQUIRE(report.verdict.layers_over_narrow_places.size() == 1);
+    CHECK_THAT(verdict_text(report, job), Catch::Contains("but not over places too narrow to print"));
+    CHECK_THAT(summary(report, job), Catch::Contains("begins in the air on 1 layer (the lowest is layer " +
+                                                     std::to_string(report.verdict.layers_over_narrow_places[0])));
+    VerifyJob judge;
+    judge.gcode = *job.gcode;
+    const PrintReport judged = verify_print(judge);
+    CHECK_FALSE(judged.supported);
+    for (const HangingLayer& layer : judged.layers)
+        CHECK(layer.supported == (layer.layer != report.verdict.layers_over_narrow_places[0]));
 }
 
 TEST_CASE("bad input has its own error each") {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
+#include "ribvault/exact/int128.hpp"
+
 namespace ribvault {
 namespace {
-
-__extension__ typedef unsigned __int128 Wide;
 
 /// value / 1e9 towards zero, to 53 binary digits.
 double cut_off(std::int64_t value) {
@@ -15,7 +15,7 @@ double cut_off(std::int64_t value) {
     const std::uint64_t size = value < 0 ? -static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
     // 1e9 has 30 digits: 83 make a quotient of 53 or 54.
     int shift = 83 - static_cast<int>(std::bit_width(size));
-    auto quotient = static_cast<std::uint64_t>((static_cast<Wide>(size) << shift) / Millimetres::picometres_per_mm);
+    auto quotient = static_cast<std::uint64_t>((static_cast<UInt128>(size) << shift) / Millimetres::picometres_per_mm);
     if (quotient >> 53 != 0) quotient >>= 1, --shift;
     const double result = std::ldexp(static_cast<double>(quotient), -shift);
     return value < 0 ? -result : result;

@@ -24,7 +24,8 @@ public:
     const std::vector<Segment>& edges() const { return edges_; }
     const Box& box() const { return box_; }
 
-    /// Calls visit(x) for every crossing of the horizontal line at y, with +1 or -1, in no stated order; x in units.
+    /// Calls visit(edge, +1 or -1) for every edge that crosses the horizontal line at y upwards or downwards, in no
+    /// stated order.
     template <class Visit>
     void visit_crossings(Unit y, Visit&& visit) const {
         if (empty() || y < box_.lo.y || y > box_.hi.y) return;

@@ -1,6 +1,5 @@
 // Wavefront OBJ: v and f lines; everything else (normals, textures, groups, lines, curves) is passed over.
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "ribvault/mesh/read_formats.hpp"

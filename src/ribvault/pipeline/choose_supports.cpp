@@ -64,8 +64,11 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
     const auto sweep = [&](TokenPtr token) {
         if (token->layer >= 0) {
             const bool keep = chosen.supports && done > 0;
-            tbb::parallel_for(std::size_t{0}, sweeps.size(),
-                              [&](std::size_t k) { finished[k] = step(sweeps[k], *token, keep); });
+            // Whoever waits here takes on no other layer meanwhile: this stage is what the rest waits for.
+            tbb::this_task_arena::isolate([&] {
+                tbb::parallel_for(std::size_t{0}, sweeps.size(),
+                                  [&](std::size_t k) { finished[k] = step(sweeps[k], *token, keep); });
+            });
             if (keep) while_there_is_room(chosen.supports, [&] { chosen.supports->add(finished); });
             progress(++done, slicer.layer_count());
         }

@@ -1,7 +1,6 @@
 // A swept layer proved, ordered and described, ready for the outputs.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

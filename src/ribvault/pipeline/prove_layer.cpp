@@ -51,6 +51,7 @@ void add_verdict(const PrintVerdict& more, PrintVerdict& verdict) {
         verdict.unsupported_mm[k] += more.unsupported_mm[k];
         verdict.external_mm[k] += more.external_mm[k];
     }
+    verdict.external_hangs = verdict.external_hangs || more.external_hangs;
     verdict.stages += more.stages;
 }
 

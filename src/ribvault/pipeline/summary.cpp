@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "ribvault/pipeline/generate.hpp"
 #include "ribvault/report/number_text.hpp"
@@ -20,8 +19,12 @@ std::string where_listed(const Job& job) {
 }
 
 /// What may help when something is not proved.
-void append_advice(std::string& text, const Settings& s) {
+void append_advice(std::string& text, const RunReport& r) {
+    const Settings& s = r.settings;
     text += "  what may help: ";
+    if (std::any_of(r.layers.begin(), r.layers.end(),
+                    [](const LayerReport& layer) { return layer.verdict.malformed.starts_with("layer "); }))
+        text += "the mesh repaired where parts touch or cross, or moved a little (--rotate); ";
     if (s.stands_off()) text += "a smaller --support-gap, fewer --support-gap-layers, or no --bed-only; ";
     if (s.gaps == Gaps::paper) text += "--gaps proved; ";
     text += "another --seed, thinner layers, or the model turned (docs/printing.md, When something is not proved)\n";
@@ -31,8 +34,10 @@ void describe_verdict(std::string& text, const RunReport& r, const Job& job) {
     const auto layers = static_cast<int>(r.layers.size());
     const bool gap = r.settings.reach_of_object() > r.settings.support_radius;
     if (r.verdict.proved)
-        append_formatted(text, "proved    equation (2) holds on all %d layers, decided exactly%s\n", layers,
-                         r.verdict.print_proved ? ",\n          for the geometry and for what is extruded" : "");
+        append_formatted(
+            text, "proved    equation (2) holds on all %d layers, decided exactly%s%s\n", layers,
+            r.verdict.print_proved ? ",\n          for the geometry and for what is extruded" : "",
+            r.verdict.layers_over_narrow_places.empty() ? "" : ", but not over places too narrow to print");
     if (r.verdict.proved && gap)
         append_formatted(
             text,
@@ -69,6 +74,8 @@ void describe_verdict(std::string& text, const RunReport& r, const Job& job) {
         if (const auto& hole = layer.verdict.internal ? layer.verdict.internal : layer.verdict.external)
             append_formatted(text, "  layer %d: %.3g to %.3g mm2, among them (%.6f, %.6f) mm\n", layer.layer,
                              hole->area_lo, hole->area_hi, hole->witness[0], hole->witness[1]);
+        else if (layer.verdict.malformed.starts_with("layer "))
+            append_formatted(text, "  %s\n", layer.verdict.malformed.c_str());
         else
             append_formatted(text, "  layer %d: %s\n", layer.layer, layer.verdict.malformed.c_str());
     }
@@ -84,8 +91,7 @@ void describe_verdict(std::string& text, const RunReport& r, const Job& job) {
                 append_formatted(text, "  layer %d, near (%.3f, %.3f) mm\n", layer.layer, layer.print.place[0],
                                  layer.print.place[1]);
     }
-    if (!r.verdict.proved || (!r.verdict.print_proved && r.settings.gaps != Gaps::paper))
-        append_advice(text, r.settings);
+    if (!r.verdict.proved || (!r.verdict.print_proved && r.settings.gaps != Gaps::paper)) append_advice(text, r);
     if (!r.verdict.external_overhangs.empty() && !r.settings.outside()) {
         double area = 0;
         const ExternalOverhang* worst = &r.verdict.external_overhangs.front();
@@ -99,6 +105,13 @@ void describe_verdict(std::string& text, const RunReport& r, const Job& job) {
                          many(static_cast<long long>(r.verdict.external_overhangs.size()), "layer").c_str(),
                          fixed(area, area < 10 ? 3 : 0).c_str(), worst->layer, where_listed(job).c_str());
     }
+    if (const std::vector<int>& over = r.verdict.layers_over_narrow_places; !over.empty())
+        append_formatted(
+            text,
+            "warning   what is extruded begins in the air on %s (the lowest is layer %d), over places of "
+            "the slice\n"
+            "          below that are too narrow for a closed perimeter; a finer --nozzle may print them\n",
+            many(static_cast<long long>(over.size()), "layer").c_str(), over.front());
 }
 
 }  // namespace

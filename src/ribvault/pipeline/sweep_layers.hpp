@@ -49,7 +49,8 @@ struct SweptLayer {
     int blocked = 0;       ///< chains that could not be straightened without crossing a wall
     int braces = 0;        ///< walls that give a long tree its second root
     HeldLayer held;        ///< what is printed
-    std::shared_ptr<const PrintedLayer> printed_above;  ///< on the layer above; nullptr: this is the top
+    std::shared_ptr<const PrintedLayer> printed_above;  ///< what `held` is judged against, which refers to it;
+                                                        ///< nullptr: this is the top
     /// Where supports stand off: the object's tracks of kind support on this layer and on the next
     /// settings.support_gap_layers.
     std::vector<std::shared_ptr<const NearestSegment>> patches;

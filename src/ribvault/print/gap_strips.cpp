@@ -162,12 +162,18 @@ std::vector<StripReach> seem_to_hang(const std::vector<Lane>& above, const std::
     const NearestSegment spare(std::move(not_printed.lines)), below(std::move(printed.lines));
     std::vector<StripReach> hanging;
     if (spare.empty() || below.empty()) return hanging;
-    const Unit widest = *std::max_element(not_printed.widths.begin(), not_printed.widths.end());
+    const Unit widest = *std::max_element(not_printed.widths.begin(), not_printed.widths.end()),
+               widest_below = *std::max_element(printed.widths.begin(), printed.widths.end());
     const auto rho = static_cast<double>(settings.support_radius);
     const auto holds = [&](Point p, double more) {
-        const NearestSegment::Hit hit = below.nearest(p);
-        const double far = static_cast<double>(printed.widths[hit.index]) / 2 + more;
-        return far >= 0 && hit.distance.value() <= far * far;
+        bool held = false;
+        const Unit reach = widest_below / 2 + static_cast<Unit>(std::max(0.0, more));
+        below.visit(bounding_box({p, p}, reach), [&](std::uint32_t k) {
+            if (held) return;
+            const double far = static_cast<double>(printed.widths[k]) / 2 + more;
+            held = far >= 0 && squared_distance(p, below.segments()[k]).value() <= far * far;
+        });
+        return held;
     };
     for (const Lane& lane : above) {
         bool near = false;

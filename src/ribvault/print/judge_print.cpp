@@ -173,6 +173,7 @@ PrintVerdict PrintJudgement::verdict() const {
         options.areas = options.regions = false;
         const PrintedVerdict hangs = verify_printed(upper, *below_, printed_length(settings_->support_radius), options);
         verdict.external_mm = sum(hangs.unsupported_length);
+        verdict.external_hangs = !hangs.centre_lines_supported;
         verdict.stages += hangs.stages;
     }
     return verdict;

@@ -1,7 +1,6 @@
 #include "ribvault/print/read_gcode.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>

@@ -1,6 +1,5 @@
 #include "ribvault/print/travel_map.hpp"
 
-#include <cmath>
 #include <limits>
 #include <optional>
 

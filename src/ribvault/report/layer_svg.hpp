@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "ribvault/settings.hpp"
 #include "ribvault/slice/slice.hpp"

@@ -1,7 +1,6 @@
 #include "ribvault/report/print_report.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace ribvault {
 

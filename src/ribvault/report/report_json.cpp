@@ -218,6 +218,7 @@ Json summary(const VerdictSummary& v) {
               {"layers_refuted", v.print_layers_refuted},
               {"unsupported_mm", v.print_unsupported_mm},
               {"external_mm", v.print_external_mm},
+              {"layers_over_narrow_places", v.layers_over_narrow_places},
               {"stages", stages(v.print_stages)}}}};
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "ribvault/exact/int128.hpp"
 #include "ribvault/verify/point_signs.hpp"
 
 namespace ribvault::verify {
@@ -14,7 +15,6 @@ namespace ribvault::verify {
 namespace {
 
 using EdgeBox = CGAL::Box_intersection_d::Box_with_info_d<double, 2, int>;
-__extension__ typedef __int128 Wide;
 
 std::string place(double x, double y) {
     std::ostringstream out;
@@ -24,14 +24,15 @@ std::string place(double x, double y) {
 }
 std::string place(Point p) { return place(static_cast<double>(p.x), static_cast<double>(p.y)); }
 
+// In 128 bits, unlike exact/predicates.hpp: nothing is known yet about the coordinates.
 int orientation(Point a, Point b, Point c) {
     const Point u = b - a, w = c - a;
-    const Wide turn = static_cast<Wide>(u.x) * w.y - static_cast<Wide>(u.y) * w.x;
+    const Int128 turn = static_cast<Int128>(u.x) * w.y - static_cast<Int128>(u.y) * w.x;
     return (turn > 0) - (turn < 0);
 }
-Wide along(const Segment& s, Point p) {
+Int128 along(const Segment& s, Point p) {
     const Point d = s.b - s.a, u = p - s.a;
-    return static_cast<Wide>(u.x) * d.x + static_cast<Wide>(u.y) * d.y;
+    return static_cast<Int128>(u.x) * d.x + static_cast<Int128>(u.y) * d.y;
 }
 bool inside_segment(Point p, const Segment& s) {
     return orientation(s.a, s.b, p) == 0 && along(s, p) > 0 && along(s, p) < along(s, s.b);
@@ -108,7 +109,7 @@ int winding_right(const std::vector<Wall>& walls, std::size_t of) {
         const bool upward = 2 * q.y >= twice_middle.y;
         if ((2 * p.y >= twice_middle.y) == upward) continue;
         const Point lo = upward ? p : q, u = (upward ? q : p) - lo, w = twice_middle - lo - lo;
-        if (static_cast<Wide>(u.x) * w.y - static_cast<Wide>(u.y) * w.x > 0)
+        if (static_cast<Int128>(u.x) * w.y - static_cast<Int128>(u.y) * w.x > 0)
             winding += upward ? walls[i].jump : -walls[i].jump;
     }
     return b.y > a.y ? winding : winding - walls[of].jump;

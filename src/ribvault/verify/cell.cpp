@@ -7,6 +7,7 @@ namespace ribvault::verify {
 
 namespace {
 
+constexpr std::size_t few_windows = 8;                ///< for which it does not pay to put things in rows
 constexpr double half_diagonal = 1.4142135623730952;  // above the square root of 2
 
 Track track_of(const CoverProblem& problem, int a, int b) {
@@ -96,25 +97,47 @@ Vec<double> off_lines(const Subdivision& s, const Cell& cell) {
     return {x, y};
 }
 
+// Calls use(i) for those of 0 <= i < count, increasing, of which test(i) is true, which may be looked for between the
+// heights only.
+template <class Test, class Use>
+void visit_between(const HeightRows& rows, std::size_t count, double from, double to, const Test& test,
+                   const Use& use) {
+    if (rows.empty()) {
+        for (std::size_t i = 0; i < count; ++i)
+            if (test(i)) use(i);
+        return;
+    }
+    boost::container::small_vector<std::uint32_t, 64> found;
+    rows.visit(from, to, [&](std::uint32_t i) {
+        if (i < count && test(i)) found.push_back(i);
+    });
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    for (const std::uint32_t i : found) use(static_cast<std::size_t>(i));
+}
+
 // Winding number of all edges about a point on none of them: those that a ray to +x crosses. A vertex on the ray counts
 // as above it.
-int winding_at(const Subdivision& s, const std::vector<Track>& tracks, const std::vector<Edge>& edges, double x,
-               double y) {
+int winding_at(const Subdivision& s, const std::vector<Track>& tracks, const std::vector<Edge>& edges,
+               const HeightRows& rows, double x, double y) {
     const auto above = [&](double height, int vertex) {
         if (height > y + s.margin) return true;
         if (height < y - s.margin) return false;
         return exact_point<Rational>(s.problem->vertices[vertex]).y >= Rational(y);
     };
     int winding = 0;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto may_cross = [&](std::size_t i) {
         const Track& t = tracks[i];
         const double end = t.ay + t.dy;
-        if (std::max(t.ay, end) < y - s.margin || std::min(t.ay, end) > y + s.margin) continue;
-        if (std::max(t.ax, t.ax + t.dx) < x - s.margin) continue;
-        const bool up = above(end, edges[i].b);
-        if (above(t.ay, edges[i].a) == up) continue;
+        return std::max(t.ay, end) >= y - s.margin && std::min(t.ay, end) <= y + s.margin &&
+               std::max(t.ax, t.ax + t.dx) >= x - s.margin;
+    };
+    visit_between(rows, edges.size(), y - s.margin, y + s.margin, may_cross, [&](std::size_t i) {
+        const Track& t = tracks[i];
+        const bool up = above(t.ay + t.dy, edges[i].b);
+        if (above(t.ay, edges[i].a) == up) return;
         if (side_of_edge(s, t, edges[i], x, y) == (up ? 1 : -1)) winding += up ? 1 : -1;
-    }
+    });
     return winding;
 }
 
@@ -140,7 +163,7 @@ void refer_to_centre(const Subdivision& s, Cell& cell) {
 // t is on the segment up to 2^-50 c whatever the error of t; an error of t moves the distance in second order only. So
 // every distance is right within 2^-46 c. 2^-34 c is far above that, and wide enough for the intervals of most
 // candidates.
-Subdivision subdivision(const CoverProblem& problem) {
+Subdivision subdivision(const CoverProblem& problem, std::size_t windows) {
     double c = 1;
     for (const Vertex& v : problem.vertices) c = std::max({c, std::abs(v.cx), std::abs(v.cy)});
     for (const Stadium& s : problem.sites) c = std::max(c, s.radius.approx);
@@ -151,6 +174,17 @@ Subdivision subdivision(const CoverProblem& problem) {
     for (const Stadium& t : problem.sites) s.sites.push_back(track_of(problem, t.a, t.b));
     for (const Edge& t : problem.material) s.material.push_back(track_of(problem, t.a, t.b));
     for (const Stadium& t : problem.pieces) s.pieces.push_back(track_of(problem, t.a, t.b));
+    if (windows < few_windows) return s;
+    const auto rows = [&](const std::vector<Track>& tracks, const auto& radius) {
+        return HeightRows(tracks.size(), [&](std::size_t i) {
+            const Track& t = tracks[i];
+            const double reach = radius(i) + 32 * s.margin;
+            return std::pair(std::min(t.ay, t.ay + t.dy) - reach, std::max(t.ay, t.ay + t.dy) + reach);
+        });
+    };
+    s.site_rows = rows(s.sites, [&](std::size_t i) { return problem.sites[i].radius.approx; });
+    s.material_rows = rows(s.material, [](std::size_t) { return 0.0; });
+    s.piece_rows = rows(s.pieces, [&](std::size_t i) { return problem.pieces[i].radius.approx; });
     return s;
 }
 
@@ -173,19 +207,28 @@ CellState root_cell(const Subdivision& s, const Window& window, Cell& cell) {
         return std::max(t.ax, t.ax + t.dx) > cell.x - reach && std::min(t.ax, t.ax + t.dx) < cell.x + reach &&
                std::max(t.ay, t.ay + t.dy) > cell.y - reach && std::min(t.ay, t.ay + t.dy) < cell.y + reach;
     };
-    for (std::size_t i = 0; i < problem.sites.size(); ++i) {
-        if (!near(s.sites[i], problem.sites[i].radius.approx)) continue;
-        cell.sites.push_back(static_cast<int>(i));
-        if (i < problem.region.size() && near(s.sites[i], 0)) cell.region.push_back(static_cast<int>(i));
-    }
-    for (std::size_t i = 0; i < problem.material.size(); ++i)
-        if (near(s.material[i], 0)) cell.edges.push_back(static_cast<int>(i));
-    for (std::size_t i = 0; i < problem.pieces.size(); ++i)
-        if (near(s.pieces[i], problem.pieces[i].radius.approx)) cell.pieces.push_back(static_cast<int>(i));
+    const auto visit_near = [&](const HeightRows& rows, const std::vector<Track>& tracks, const auto& radius,
+                                const auto& use) {
+        visit_between(
+            rows, tracks.size(), square.lo_y, square.hi_y, [&](std::size_t i) { return near(tracks[i], radius(i)); },
+            use);
+    };
+    visit_near(
+        s.site_rows, s.sites, [&](std::size_t i) { return problem.sites[i].radius.approx; },
+        [&](std::size_t i) {
+            cell.sites.push_back(static_cast<int>(i));
+            if (i < problem.region.size() && near(s.sites[i], 0)) cell.region.push_back(static_cast<int>(i));
+        });
+    visit_near(
+        s.material_rows, s.material, [](std::size_t) { return 0.0; },
+        [&](std::size_t i) { cell.edges.push_back(static_cast<int>(i)); });
+    visit_near(
+        s.piece_rows, s.pieces, [&](std::size_t i) { return problem.pieces[i].radius.approx; },
+        [&](std::size_t i) { cell.pieces.push_back(static_cast<int>(i)); });
     const auto [x, y] = off_lines(s, cell);
     cell.ref_x = x, cell.ref_y = y;
-    cell.material_winding = winding_at(s, s.material, problem.material, x, y);
-    cell.region_winding = winding_at(s, s.sites, problem.region, x, y);
+    cell.material_winding = winding_at(s, s.material, problem.material, s.material_rows, x, y);
+    cell.region_winding = winding_at(s, s.sites, problem.region, s.site_rows, x, y);
     return state_of(problem, cell, false);
 }
 

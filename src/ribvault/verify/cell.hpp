@@ -3,6 +3,7 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include "ribvault/verify/height_rows.hpp"
 #include "ribvault/verify/subdivide.hpp"
 
 namespace ribvault::verify {
@@ -36,8 +37,11 @@ struct Subdivision {
     const CoverProblem* problem = nullptr;
     double margin = 0;
     std::vector<Track> sites, material, pieces;
+    /// By the heights of sites and pieces with their radii, of material without; empty where there are few windows.
+    HeightRows site_rows, material_rows, piece_rows;
 };
-Subdivision subdivision(const CoverProblem& problem);
+/// `windows`: how many root cells will be asked for.
+Subdivision subdivision(const CoverProblem& problem, std::size_t windows);
 
 /// The square of the first cell for a window: a little larger than the square about it and off its middle, as symmetric
 /// input has its edges on lines through the middle.

@@ -233,7 +233,7 @@ Part bounded(const Subdivision& s, Cell&& open) {
 
 AreaEnclosure enclose_area(const CoverProblem& problem, std::span<const Window> windows, int max_cells) {
     AreaEnclosure area;
-    const Subdivision s = subdivision(problem);
+    const Subdivision s = subdivision(problem, windows.size());
     std::vector<Part> open;  // a heap: what is known least comes first
     const auto less_unknown = [](const Part& p, const Part& q) { return p.hi - p.lo < q.hi - q.lo; };
     double largest = 0;

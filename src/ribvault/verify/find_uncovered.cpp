@@ -149,7 +149,7 @@ struct Leaf {
 std::optional<Uncovered> find_uncovered(const CoverProblem& problem, std::span<const Window> windows,
                                         StageCounts& stages) {
     if (windows.empty()) return std::nullopt;
-    const Subdivision s = subdivision(problem);
+    const Subdivision s = subdivision(problem, windows.size());
     double smallest = 0;
     for (const Stadium& site : problem.sites)
         smallest = smallest == 0 ? site.radius.approx : std::min(smallest, site.radius.approx);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ribvault/verify/exact_stadium.hpp"
+#include "ribvault/verify/height_rows.hpp"
 
 namespace ribvault {
 namespace {
@@ -25,50 +26,6 @@ struct Approximate {
     double size() const { return std::max({std::fabs(ax), std::fabs(ay), std::fabs(bx), std::fabs(by)}); }
 };
 
-/// The edges in rows by the heights that they reach.
-class Rows {
-public:
-    Rows() = default;
-    /// Heights are off by less than `margin`.
-    Rows(const std::vector<Approximate>& edges, double margin) {
-        if (edges.empty()) return;
-        double top = -HUGE_VAL;
-        low_ = HUGE_VAL;
-        for (const Approximate& e : edges) low_ = std::min({low_, e.ay, e.by}), top = std::max({top, e.ay, e.by});
-        low_ -= 2 * margin, top += 2 * margin;
-        rows_ = static_cast<int>(std::min<std::size_t>(edges.size(), 4096));
-        inverse_ = rows_ / std::max(top - low_, 1e-300);
-        starts_.assign(static_cast<std::size_t>(rows_) + 1, 0);
-        const auto enter = [&](const auto& put) {
-            for (std::size_t k = 0; k < edges.size(); ++k)
-                for (int r = row(std::min(edges[k].ay, edges[k].by) - 2 * margin),
-                         end = row(std::max(edges[k].ay, edges[k].by) + 2 * margin);
-                     r <= end; ++r)
-                    put(static_cast<std::size_t>(r), static_cast<std::uint32_t>(k));
-        };
-        enter([&](std::size_t r, std::uint32_t) { ++starts_[r + 1]; });
-        for (std::size_t r = 1; r < starts_.size(); ++r) starts_[r] += starts_[r - 1];
-        members_.resize(starts_.back());
-        std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-        enter([&](std::size_t r, std::uint32_t k) { members_[next[r]++] = k; });
-    }
-
-    /// Every edge that comes between the heights, perhaps more than once.
-    template <class Visit>
-    void visit(double from, double to, const Visit& visit) const {
-        if (rows_ == 0) return;
-        const auto first = static_cast<std::size_t>(row(from)), last = static_cast<std::size_t>(row(to));
-        for (std::uint32_t i = starts_[first]; i < starts_[last + 1]; ++i) visit(members_[i]);
-    }
-
-private:
-    int row(double y) const { return static_cast<int>(std::clamp((y - low_) * inverse_, 0.0, rows_ - 1.0)); }
-
-    double low_ = 0, inverse_ = 0;
-    int rows_ = 0;
-    std::vector<std::uint32_t> starts_, members_;
-};
-
 class Outline {
 public:
     explicit Outline(const PrintedLayer& lower) {
@@ -80,7 +37,11 @@ public:
         }
         if (!closed()) edges_.clear(), doubles_.clear();
         for (const Approximate& e : doubles_) largest_ = std::max(largest_, e.size());
-        rows_ = Rows(doubles_, 0x1p-46 * largest_);
+        const double margin = 2 * 0x1p-46 * largest_;  // twice what heights are off by
+        rows_ = HeightRows(doubles_.size(), [&](std::size_t k) {
+            const Approximate& e = doubles_[k];
+            return std::pair(std::min(e.ay, e.by) - margin, std::max(e.ay, e.by) + margin);
+        });
     }
     bool empty() const { return edges_.empty(); }
     const Millimetres& width() const { return narrowest_->width; }
@@ -218,7 +179,7 @@ private:
 
     std::vector<const PrintedTrack*> edges_;
     std::vector<Approximate> doubles_;
-    Rows rows_;
+    HeightRows rows_;
     const PrintedTrack* narrowest_ = nullptr;
     double largest_ = 0;
 };

@@ -35,7 +35,6 @@ std::vector<Edge> uncovered_tracks(std::span<const Vertex> vertices, std::span<c
         const Edge &track = above[u.info()], &under = below[l.info()];
         Stage stage = Stage::interval;
         for (const int end : {track.a, track.b}) {
-            if (end == under.a || end == under.b) continue;
             Located v = located(problem, {Candidate::Kind::vertex, end, 0, {}, {}, 0});
             if (side_of_stadium(v, {under.a, under.b, rho}, Stage::rational) == Side::outside) return;
             stage = std::max(stage, v.stage);

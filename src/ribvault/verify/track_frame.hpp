@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <vector>
 
 #include "ribvault/verify/prepared_tracks.hpp"
 

@@ -35,6 +35,7 @@ struct PrintVerdict {
     std::array<double, 2> unsupported_mm{
         0, 0};  ///< enclosure of the length of centre lines that violate (1) inside the outline
     std::array<double, 2> external_mm{0, 0};     ///< the same outside it
+    bool external_hangs = false;                 ///< a centre line outside it violates (1), or a dot's centre does
     std::array<double, 2> place{0, 0};           ///< near something unsupported, mm
     StageCounts stages;
 };

@@ -31,8 +31,8 @@ struct LayerGeometry {
 /// Precondition: the pointers are valid, ρ > 0, nozzle > 0 and even. Throws Error (usage) otherwise.
 /// May be called from several threads at once on shared input.
 ///
-///     LayerGeometry below{slices[i].exact.get(), &cavities[i], tracks_of(forests[i])};
-///     LayerGeometry above{slices[i + 1].exact.get(), &cavities[i + 1], tracks_of(forests[i + 1])};
+///     LayerGeometry below{slices[i].exact.get(), &cavities[i], centre_lines(forests[i])};
+///     LayerGeometry above{slices[i + 1].exact.get(), &cavities[i + 1], centre_lines(forests[i + 1])};
 ///     const LayerVerdict verdict = verify_layer(i + 1, above, below, settings);
 ///     if (!verdict.supported && verdict.internal) report(verdict.internal->witness);
 LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const LayerGeometry& lower,
