@@ -58,7 +58,7 @@ class VaultRun {
     this.shapes = remember(40, k => shapesFrom(all[k].geometry));
     this.marks = remember(40, k => marksOf(this.shapes(k)));
     this.tops = all.map((_, k) => s.first_layer_height_mm + k * s.layer_height_mm);
-    this.box = boxOf(k => this.shapes(k).slice, this.count);
+    this.box = boxOf(all.map(r => r.geometry));
   }
   numbers(k) { return this.all[k].numbers; }
   /** How wide the wall through vertex v is printed, mm; as wall_width in vault/wall_stability.hpp. */
@@ -119,16 +119,16 @@ class PrintRun {
   }
 }
 
-/** x, y of all contours: lowest, then greatest. Sampled: at most 200 layers. */
-function boxOf(region, count) {
-  const box = [1e9, 1e9, -1e9, -1e9], step = Math.max(1, Math.floor(count / 200));
-  for (let k = 0; k < count; k += step)
-    for (const c of region(k))
-      for (let i = 0; i < c.length; i += 2) {
-        box[0] = Math.min(box[0], c[i]); box[1] = Math.min(box[1], c[i + 1]);
-        box[2] = Math.max(box[2], c[i]); box[3] = Math.max(box[3], c[i + 1]);
-      }
-  return box;
+/** x, y of all slices and supports of packed layers (as shapesFrom reads them), mm: lowest, then greatest. */
+function boxOf(geometries) {
+  const box = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const geometry of geometries) {
+    const in_ = new Unpacker(geometry);
+    in_.regionWithin(box);
+    in_.region();  // the cavity lies within the slice
+    in_.pointsWithin(in_.natural(), box);
+  }
+  return box[0] <= box[2] ? box.map(v => v / 100) : [0, 0, 0, 0];
 }
 
 /** The layer of a run in whose height z lies; -1: none. */

@@ -27,6 +27,17 @@ class Unpacker {
     }
     return out;
   }
+  /** Widens a box, in hundredths of mm, by `n` points. */
+  pointsWithin(n, box) {
+    for (; n > 0; --n) {
+      const x = this.x += this.whole(), y = this.y += this.whole();
+      if (x < box[0]) box[0] = x;
+      if (x > box[2]) box[2] = x;
+      if (y < box[1]) box[1] = y;
+      if (y > box[3]) box[3] = y;
+    }
+  }
+  regionWithin(box) { for (let n = this.natural(); n > 0; --n) this.pointsWithin(this.natural(), box); }
   region() { return Array.from({ length: this.natural() }, () => this.points(this.natural())); }
   /** Whole numbers, each relative to the one before. */
   rising(n) { let v = 0; return Uint32Array.from({ length: n }, () => v += this.whole()); }

@@ -12,6 +12,9 @@ import browser
 from runs import CUBE, PROGRAM, generate, make_page
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "experiments"))
+from make_solids import box, write_stl  # noqa: E402
+
 CORPUS = ROOT / "tests/corpus/gcode"
 SCREENSHOTS = pathlib.Path(os.environ.get("SCREENSHOTS", "screenshots"))
 FOUND = browser.find()
@@ -311,6 +314,22 @@ class Pages(unittest.TestCase):
             self.at_end()
             self.open(name, "#layer=26")
             self.assertNotEqual("#%02x%02x%02x" % tuple(self.browser.run(pixels + "([[8, 3]])")[0]), colour, name)
+
+    def test_every_layer_counts_for_the_frame(self):
+        """450 layers, one of them 60 mm wide in place of 20."""
+        header, *layers = map(json.loads, (self.folder / "a.layers").read_text().splitlines())
+        header["totals"]["layers"] = 450
+        with open(self.folder / "collar.layers", "w") as out:
+            out.write(json.dumps(header) + "\n")
+            for k in range(450):
+                layer = {**layers[50], "layer": k}
+                if k == 301:
+                    layer["slice"] = [[[125 + 3 * (v - 125) for v in p] for p in c] for c in layer["slice"]]
+                out.write(json.dumps(layer) + "\n")
+        self.assertEqual(make_page(self.folder, "collar.layers", "-o", "collar.html").returncode, 0)
+        self.open("collar.html")
+        self.assertEqual([round(v, 2) for v in self.browser.run("page.runs[0].box")], [95, 95, 155, 155])
+        self.at_end()
 
     def test_without_webgl_the_drawing_is_there(self):
         with browser.Browser(FOUND, flags=["--disable-3d-apis"]) as plain:
