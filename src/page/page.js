@@ -160,18 +160,19 @@ class Page {
     this.places(layers);
   }
   places(layers) {
-    const box = $("places");
+    const box = $("places"), most = 200;
     box.replaceChildren();
     layers.forEach((k, r) => {
       const list = k < 0 ? [] : this.runs[r].places(k);
       if (list.length === 0) return;
       const ol = made("ol");
-      for (const place of list) {
+      for (const place of list.slice(0, most)) {
         const b = made("button", {}, place.words);
         b.onclick = () => { this.drawings[r].go(place.x, place.y); this.drawings[r].canvas.scrollIntoView({ block: "nearest" }); };
         ol.append(made("li", {}, b));
       }
-      box.append(made("h2", {}, (this.two ? this.names[r] + ": " : "") + many(list.length, "place") + (list.length > 1 ? " that hang" : " that hangs")), ol);
+      const named = list.length > most ? `the worst ${most} of ${list.length} places` : many(list.length, "place");
+      box.append(made("h2", {}, (this.two ? this.names[r] + ": " + named : named[0].toUpperCase() + named.slice(1)) + (list.length > 1 ? " that hang" : " that hangs")), ol);
     });
   }
   paint() {

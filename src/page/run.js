@@ -115,7 +115,7 @@ class PrintRun {
       if (e.regions.length === 0)
         for (const p of e.pieces) list.push({ x: (p[2] + p[4]) / 2, y: (p[3] + p[5]) / 2, size: p[6], words: `${fixed(p[6], 3)} mm from material, line ${p[1]}, ${this.features[p[0]].name}` });
     }
-    return list.sort((a, b) => b.size - a.size).slice(0, 200);
+    return list.sort((a, b) => b.size - a.size);
   }
 }
 

@@ -315,6 +315,19 @@ class Pages(unittest.TestCase):
             self.open(name, "#layer=26")
             self.assertNotEqual("#%02x%02x%02x" % tuple(self.browser.run(pixels + "([[8, 3]])")[0]), colour, name)
 
+    def test_more_places_than_are_listed(self):
+        """600 short tracks over one wall: the worst 200 are named, and of how many they are."""
+        lines = ["M83", ";LAYER_HEIGHT:0.2", ";WIDTH:0.4", ";TYPE:Perimeter", ";Z:0.2", "G1 Z0.2 F600", "G1 X0 Y0 F3000", "G1 X100 Y0 E4", ";Z:0.4", "G1 Z0.4 F600"]
+        for k in range(600):
+            x, y = k % 60 * 1.5, 3 + k // 60
+            lines += [f"G1 X{x} Y{y} F3000", f"G1 X{x + 0.5} Y{y} E0.02"]
+        (self.folder / "many.gcode").write_text("\n".join(lines) + "\n")
+        self.assertEqual(make_page(self.folder, "many.gcode", "-o", "many.html").returncode, 0)
+        self.open("many.html", "#layer=1")
+        self.assertIn("The worst 200 of 600 places that hang", self.text("#places h2"))
+        self.assertEqual(self.browser.run("document.querySelectorAll('#places li').length"), 200)
+        self.at_end()
+
     def test_every_layer_counts_for_the_frame(self):
         """450 layers, one of them 60 mm wide in place of 20."""
         header, *layers = map(json.loads, (self.folder / "a.layers").read_text().splitlines())
