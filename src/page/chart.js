@@ -9,10 +9,12 @@ function chartsOf(run) {
       { title: "Extruded, mm³", parts: [{ name: "tracks", colour: "shell", values: list(k => run.volume(k)) }] },
       { title: "Area that hangs, mm²", parts: [{ name: "hangs", colour: "hang", values: list(k => { const [lo, hi] = run.area(k); return (lo + hi) / 2; }) }] },
     ];
+  const inside = run.outside ? "internal supports" : "supports";
+  const external = of => run.outside ? [{ name: "external supports", colour: "second", values: list(k => externalOf(run.numbers(k))[of]) }] : [];
   return [
-    { title: "Length of supports as printed, mm", parts: [{ name: "supports", colour: "track", values: list(k => run.numbers(k).support_printed_length_mm) }] },
+    { title: "Length of supports as printed, mm", parts: [{ name: inside, colour: "track", values: list(k => run.numbers(k).support_printed_length_mm) }, ...external("length")] },
     { title: "Volume, mm³", parts: [{ name: "shell and covers", colour: "shell", values: list(k => run.numbers(k).shell_volume_mm3) },
-      { name: "supports", colour: "track", values: list(k => run.numbers(k).support_volume_mm3) }] },
+      { name: inside, colour: "track", values: list(k => run.numbers(k).support_volume_mm3) }, ...external("volume")] },
   ];
 }
 /** The chart that runs of both kinds have. */

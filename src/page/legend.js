@@ -7,14 +7,14 @@ const markShapes = {
 const legends = {
   layers: [["area", "shell", "shell"], ["area", "track", "support track"], ["line", "line", "centre line"], ["root", "root", "root"], ["junction", "junction", "junction"],
     ["tip", "tip", "tip"], ["dot", "dot", "dot"], ["area", "hang", "newly supported for the layer above"], ["area", "patch", "patch"], ["area", "overhang", "overhangs outside"]],
-  gcode: [["area", "below", "material below"], ["area", "track", "track"], ["area", "other", "not judged"], ["area", "hang", "no material within ρ below"], ["line", "bridge", "bridge"]],
+  gcode: [["area", "below", "material below"], ["area", "track", "track"], ["area", "other", "not judged"], ["area", "hang", lacking], ["line", "bridge", "bridge"]],
 };
 function legend(run) {
   const row = made("div", { class: "row legend" });
   for (const [shape, colour, words] of legends[run.kind]) {
     if (colour === "bridge" && !run.facts.bridges) continue;
     if (colour === "overhang" && run.header.verdict.external_overhangs.every(o => !run.overhangs(o.layer))) continue;
-    const entry = made("span", {}, words);
+    const entry = made("span", {}, typeof words === "function" ? words(run) : words);
     entry.insertAdjacentHTML("afterbegin", `<svg aria-hidden="true" viewBox="0 0 24 18" fill="var(--${colour})">${markShapes[shape]}</svg>`);
     row.append(entry);
   }

@@ -55,6 +55,14 @@ class VaultRun {
     this.wideWall = s.nozzle_mm * (s.wall_lines || 1);  // layers files from before --wall-lines do not name it
     this.rho = s.support_radius_mm;
     this.good = header.verdict.proved && header.verdict.print.proved;
+    // External supports, and how they stand off the object, as Settings::reach_of_object; older layers files do not name them.
+    this.outside = (s.support || "internal") !== "internal";
+    this.emptyLayers = this.outside && s.support_gap_layers || 0;
+    this.bedOnly = this.outside && s.bed_only === true;
+    const gap = this.outside && s.support_gap_mm || 0;
+    this.reach = gap > 0 || this.emptyLayers > 0 || this.bedOnly ? Math.max(this.rho, gap + s.nozzle_mm / 2) : this.rho;
+    /** What is proved outside is not that all has material within ρ in the layer below. */
+    this.apart = this.reach > this.rho || this.emptyLayers > 0;
     this.shapes = remember(40, k => shapesFrom(all[k].geometry));
     this.marks = remember(40, k => marksOf(this.shapes(k)));
     this.tops = all.map((_, k) => s.first_layer_height_mm + k * s.layer_height_mm);
@@ -69,13 +77,13 @@ class VaultRun {
   hangs(k) { const n = this.numbers(k); return !n.verdict.supported || !n.print.supported || n.verdict.external !== null; }
   refuted(k) { const n = this.numbers(k); return !n.verdict.supported || !n.print.supported; }
   /** Something of it hangs outside the layer below, where no external supports stand. */
-  overhangs(k) { return this.numbers(k).verdict.external !== null && (this.header.settings.support || "internal") === "internal"; }
+  overhangs(k) { return this.numbers(k).verdict.external !== null && !this.outside; }
   newArea(k) { return areaOf(this.shapes(k).unsupported); }
   places(k) {
     const { verdict, print } = this.numbers(k), list = [];
     const region = (u, what) => u && list.push({ x: u.witness_mm[0], y: u.witness_mm[1], words: `${range(u.area_mm2[0], u.area_mm2[1])} mm² ${what}` });
     region(verdict.internal, "inside have no support");
-    region(verdict.external, "hang outside the layer below");
+    region(verdict.external, this.outside ? "outside have no support" : "hang outside the layer below");
     if (print.place_mm) list.push({ x: print.place_mm[0], y: print.place_mm[1], words: `as printed, ${fixed(print.unsupported_mm[1], 3)} mm have no support` });
     return list;
   }
@@ -90,6 +98,8 @@ class PrintRun {
     this.name = facts.name;
     this.rho = facts.rho;
     this.good = facts.supported;
+    /** Judged by more than ρ over the layer below: by gaps of supports, on the bed alone, inside outlines. The facts say so in words (report/print_page.cpp). */
+    this.apart = / inside the outline| removal gap| layers left empty| on the bed alone/.test(facts.words);
     this.features = facts.features;
     this.entries = [];
     all.forEach((r, k) => { (this.entries[r.numbers.layer] ||= []).push(k); });
@@ -105,6 +115,8 @@ class PrintRun {
   /** Bounds of the area that hangs, mm². */
   area(k) { return this.numbers(k).flatMap(e => e.regions).reduce((s, r) => [s[0] + r[0], s[1] + r[1]], [0, 0]); }
   sum(k, of) { return this.numbers(k).reduce((s, e) => s + of(e), 0); }
+  /** Length of its bridges, which do not count as hanging, mm. */
+  bridged(k) { return this.sum(k, e => e.bridges.reduce((s, b) => s + Math.hypot(b[4] - b[2], b[5] - b[3]), 0)); }
   length(k) { return this.sum(k, e => e.lengths.reduce((s, l) => s + l[1], 0)); }
   volume(k) { return this.sum(k, e => e.lengths.reduce((s, l) => s + l[2], 0)); }
   places(k) {

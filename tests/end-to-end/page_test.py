@@ -315,6 +315,71 @@ class Pages(unittest.TestCase):
             self.open(name, "#layer=26")
             self.assertNotEqual("#%02x%02x%02x" % tuple(self.browser.run(pixels + "([[8, 3]])")[0]), colour, name)
 
+    def check_external(self, name, header, layers):
+        """Figures and charts of external supports: the report's, and parts that add up."""
+        totals, shown = header["totals"], {k: float(v) for k, v in self.figures("run-figures").items()}
+        self.assertAlmostEqual(shown["external_support_volume_mm3"], totals["external_support_volume_mm3"], delta=0.06, msg=name)
+        self.assertAlmostEqual(shown["external_support_printed_length_mm"], totals["external_support_printed_length_mm"], delta=0.6, msg=name)
+        parts = ("shell_volume_mm3", "support_volume_mm3", "external_support_volume_mm3")
+        self.assertAlmostEqual(shown["material_mm3"], sum(shown[p] for p in parts), delta=0.21, msg=name)
+        layer, of_layer = layers[self.shown()[0]], {k: float(v) for k, v in self.figures("layer-figures").items()}
+        self.assertGreater(layer["external_support_volume_mm3"], 0, name)
+        for figure in ("external_support_volume_mm3", "external_support_printed_length_mm"):
+            self.assertAlmostEqual(of_layer[figure], layer[figure], delta=0.00051, msg=name)
+        self.assertAlmostEqual(of_layer["volume_mm3"], sum(of_layer[p] for p in parts), delta=0.0021, msg=name)
+        lengths, volumes = self.browser.run("chartsOf(page.runs[0]).map(c => Array.from({ length: page.runs[0].count }, (_, k) => sumOf(c, k)).reduce((a, b) => a + b, 0))")
+        self.assertAlmostEqual(lengths, totals["support_printed_length_mm"] + totals["external_support_printed_length_mm"], delta=0.01, msg=name)
+        self.assertAlmostEqual(volumes, totals["material_mm3"], delta=0.01, msg=name)
+
+    def test_external_supports_with_gaps(self):
+        """What is proved then is not that every point has material within rho below: the page says what is, and counts those supports."""
+        write_stl(self.folder / "table.stl", box((0, 0, 0), (3, 3, 6)) + box((-5, -5, 6), (8, 8, 7)))
+        every, across = "every point of all 35 layers has material within ρ below", "within ρ of a support or within 0.5 mm (g + r) of the object"
+        through = "the object lies on a support, on itself or on the bed at most 2 layers farther down"
+        for name, options, said, unsaid in (
+                ("none", (), (every,), (across, through, "on the bed alone")),
+                ("gap", ("--support-gap", "0.3"), (across,), (every, through)),
+                ("gaps", ("--support-gap", "0.3", "--support-gap-layers", "2", "--pillars"), (across, through), (every,)),
+                ("bed", ("--bed-only",), (every, "on the bed alone: external supports stand on each other, nowhere on the object"), (across,))):
+            generate(self.folder, "table.stl", "--support", "both", *options, "--layers", f"{name}.layers", "--html", f"{name}.html", "-o", f"{name}.gcode")
+            header, *layers = map(json.loads, (self.folder / f"{name}.layers").read_text().splitlines())
+            self.open(f"{name}.html", "#layer=20")
+            for words in said:
+                self.assertIn(words, self.text("header"), name)
+            for words in unsaid:
+                self.assertNotIn(words, self.text("header"), name)
+            proof = self.text("#said")
+            self.assertEqual("within 0.5 mm of the object" in proof, "--support-gap" in options, proof)
+            self.assertEqual("on layers 17 to 19" in proof, "--support-gap-layers" in options, proof)
+            self.assertEqual("external supports over external supports alone" in proof, "--bed-only" in options, proof)
+            self.check_external(name, header, layers)
+            self.at_end()
+        self.browser.screenshot(SCREENSHOTS / "external.png")
+
+    def test_rules_of_the_judge_are_said(self):
+        """`verify` with gaps, --inside, bridges or small areas: what holds is not that all has material within rho below."""
+        generate(self.folder, CUBE, "--support", "both", "-o", "both.gcode")
+        within = "have material within ρ below"
+        for file, options, said, unsaid in (
+                ("both.gcode", (), ("Supported on all 100 layers.", within), ("by the rules",)),
+                ("both.gcode", ("--support-gap", "0.3"), ("by the rules that follow", "removal gap", "held up by these rules"), (within,)),
+                ("both.gcode", ("--support-gap-layers", "1"), ("by the rules that follow", "left empty", "held up by these rules"), (within,)),
+                ("both.gcode", ("--bed-only",), ("by the rules that follow", "on the bed alone", "held up by these rules"), (within,)),
+                ("both.gcode", ("--inside",), ("by the rules that follow", "inside the outline", "held up by these rules"), (within,)),
+                (CORPUS / "verify/bridge.gcode", ("--allow-bridges", "6"), ("Supported on all 2 layers, but for 5.2 mm of bridges.", "All of it but the bridges is held up. 5.20 mm are bridges."), ("All of it is held up.",)),
+                (CORPUS / "verify/cantilever.gcode", ("--min-area", "1000"), ("but for regions that --min-area lets pass.", "hangs, as --min-area lets it"), ("Supported on all 2 layers.",))):
+            done = subprocess.run([PROGRAM, "verify", file, *options, "--html", "rules.html", "--quiet"], cwd=self.folder)
+            self.assertEqual(done.returncode, 0, options)
+            self.open("rules.html", "#layer=1")
+            text = " ".join(map(self.text, ("header", "#caption", "#said")))
+            for words in said:
+                self.assertIn(words, text, options)
+            for words in unsaid:
+                self.assertNotIn(words, text, options)
+            if "held up by these rules" in said:
+                self.assertIn("not held up by these rules", self.text(".legend"))
+            self.at_end()
+
     def test_more_places_than_are_listed(self):
         """600 short tracks over one wall: the worst 200 are named, and of how many they are."""
         lines = ["M83", ";LAYER_HEIGHT:0.2", ";WIDTH:0.4", ";TYPE:Perimeter", ";Z:0.2", "G1 Z0.2 F600", "G1 X0 Y0 F3000", "G1 X100 Y0 E4", ";Z:0.4", "G1 Z0.4 F600"]
@@ -326,6 +391,18 @@ class Pages(unittest.TestCase):
         self.open("many.html", "#layer=1")
         self.assertIn("The worst 200 of 600 places that hang", self.text("#places h2"))
         self.assertEqual(self.browser.run("document.querySelectorAll('#places li').length"), 200)
+        self.at_end()
+
+    def test_heights_are_said_as_they_are(self):
+        write_stl(self.folder / "plate.stl", box((0, 0, 0), (5, 5, 0.125)))
+        for height, said in (("0.125", "Layer 0, z 0.00 to 0.125 mm: on the bed"), ("0.1", "Layer 0, z 0.00 to 0.10 mm: on the bed")):
+            generate(self.folder, "plate.stl", "--layer-height", height, "--html", "plate.html", "-o", "plate.gcode")
+            self.open("plate.html")
+            self.assertEqual(self.text("#caption"), said)
+            self.assertIn("every point of the only layer has", self.text("header"))
+        self.assertEqual(make_page(self.folder, "plate.gcode", "-o", "plate.html").returncode, 0)
+        self.open("plate.html")
+        self.assertIn("Supported on the only layer.", self.text("header"))
         self.at_end()
 
     def test_every_layer_counts_for_the_frame(self):
