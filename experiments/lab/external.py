@@ -43,14 +43,14 @@ def run(run, folder):
     placed = folder / "placed.stl"
     code, text, _ = runs.measured([runs.program("ribvault_baselines"), "place", run.model.file, *run.model.placement, "-o", placed], folder)
     if code != 0:
-        return {"refused": text.strip()}
+        return {"refused": runs.why_refused(code, text)}
     os.environ["CURA_ENGINE_SEARCH_PATH"] = f"{peers.CURA}/definitions:{peers.CURA}/extruders"
     result = {}
     for supported in (False, True):
         gcode = folder / f"{supported}.gcode"
         code, text, cost = runs.measured(command(run.kind, placed, gcode, supported, run.settings), folder)
         if code not in (0, 1) or not gcode.exists():
-            return {"refused": f"exit code {code}: {text.strip()[-300:]}"}
+            return {"refused": f"exit code {code}: {runs.why_refused(code, text)[-300:]}"}
         _, volume, _ = sampling.read_gcode(gcode)
         name = "supported" if supported else "plain"
         result[name] = {"support_mm3": sum(volume.get(t, 0) for t in SUPPORT_TYPES), "print_seconds": print_seconds(gcode), **cost}

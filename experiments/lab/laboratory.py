@@ -1,8 +1,9 @@
 """What a driver sees: models, results of runs, the paper's rows. The same driver plans (which runs?) and tabulates."""
 import dataclasses
+import sys
 
 from lab.registry import Registry, paper_rows
-from lab.runs import Run, execute, program
+from lab.runs import Failed, Run, execute, program
 from lab.store import Store
 
 NO_COVER = ("--top-layers", "0", "--bottom-layers", "0")
@@ -20,10 +21,12 @@ class Plot:
 
 
 class Laboratory:
-    def __init__(self, results, models=None, seeds=5, sweeps=()):
+    def __init__(self, results, models=None, seeds=5, sweeps=(), make=True):
+        """`make`: runs whose results are not stored are made when a driver asks for them."""
         self.store = Store(results / "runs")
         self.registry = Registry(results / "models", models, program("ribvault_baselines"))
         self.seeds, self.sweeps = range(1, seeds + 1), list(sweeps)
+        self.make, self.failed = make, {}  # failed: run -> why it has no result; not made again by the same laboratory
         self.planned = None  # a dict while a driver is only asked which runs it needs
 
     def plan(self, build):
@@ -39,7 +42,13 @@ class Laboratory:
         if self.planned is not None:
             self.planned[run] = None
             return {}
-        return execute(run, self.store)
+        if run not in self.failed:
+            try:
+                return execute(run, self.store, self.make)
+            except Failed as failure:
+                self.failed[run] = str(failure)
+                print(f"\n{run.name}: {failure}; no result, the run is made again next time", file=sys.stderr)
+        return {"refused": self.failed[run]}
 
     def value(self, run, path):
         """A number of the result by its path ("totals.material_mm3"), or None."""

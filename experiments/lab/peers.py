@@ -41,7 +41,7 @@ def verify(gcode, model, folder, rules=()):
     report = folder / "verify.json"
     code, text, cost = runs.measured([runs.program("ribvault"), "verify", gcode, *rules, "--report", report], folder)
     if not report.exists():
-        return {"missing": text.strip() or f"exit code {code}"}
+        return {"missing": runs.why_refused(code, text)}
     return {"exit_code": code, **cost, "report": {k: v for k, v in json.loads(report.read_text()).items() if k != "layers"}}
 
 
@@ -53,11 +53,11 @@ def run(run, folder):
     placed, gcode = folder / "placed.stl", folder / "out.gcode"
     code, text, _ = runs.measured([runs.program("ribvault_baselines"), "place", run.model.file, *run.model.placement, "-o", placed], folder)
     if code != 0:
-        return {"refused": text.strip()}
+        return {"refused": runs.why_refused(code, text)}
     os.environ["CURA_ENGINE_SEARCH_PATH"] = f"{CURA}/definitions:{CURA}/extruders"
     code, text, cost = runs.measured(command(run.kind, placed, gcode), folder)
     if code not in (0, 1) or not gcode.exists():
-        return {"refused": f"exit code {code}: {text.strip()[-300:]}"}
+        return {"refused": f"exit code {code}: {runs.why_refused(code, text)[-300:]}"}
     layers, volume, travels = sampling.read_gcode(gcode)
     internal, external = sampling.unsupported(layers, sampling.read_stl(placed))
     return {"material_mm3": sum(volume.values()), "infill_mm3": sum(v for k, v in volume.items() if k in FILL[run.kind]),

@@ -82,6 +82,8 @@ class Registry:
         spec = {"file": file_digest(file), "up": up}
         facts = self.measured.load(spec)
         if facts is None:
+            if not pathlib.Path(self.measure_program).exists():
+                raise SystemExit(f"{self.measure_program} is not there, which measures the files of --models; scripts/experiments builds it (RIBVAULT_BIN names another folder)")
             done = subprocess.run([self.measure_program, "measure", file, "--height", "10", "--up", up, "--bed", "10000,10000,10000"],
                                   capture_output=True, text=True)
             facts = json.loads(done.stdout) if done.returncode == 0 else {"refused": done.stderr.strip()}
@@ -115,6 +117,8 @@ class Registry:
             self._add(entry, file if file.exists() else None, options, "CGAL's data package")
 
     def _paper(self, models):
+        if models and not pathlib.Path(models).is_dir():
+            raise SystemExit(f"--models {models}: there is no such folder")
         files = sorted(f for f in pathlib.Path(models).rglob("*") if f.suffix.lower() in FORMATS) if models else []
         for entry in self.entries["paper"]:
             if "solid" in entry:

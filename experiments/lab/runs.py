@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
@@ -29,6 +30,23 @@ class NotHere(Exception):
     """Something is missing on this machine: no result, and nothing to keep."""
 
 
+class Failed(Exception):
+    """The run came to no end that says something of the model: no result, to be made again."""
+
+
+# Of ribvault: an output that cannot be written, no memory or no thread left, interrupted (README.md).
+NO_RESULT = {6: "exit code 6, an output could not be written", 7: "exit code 7, no memory or no thread was left", 130: "exit code 130, interrupted"}
+
+
+def why_refused(code, text):
+    """What a program says that took neither the model nor the options; Failed when it was ended or the system let it down."""
+    if code < 0:
+        raise Failed(f"ended by {signal.Signals(-code).name if -code in set(signal.Signals) else f'signal {-code}'}")
+    if code in NO_RESULT:
+        raise Failed(f"{NO_RESULT[code]}{': ' if text.strip() else ''}{text.strip()[-300:]}")
+    return text.strip() or f"exit code {code}"
+
+
 def measured(command, folder):
     """Exit code, error text, wall seconds, CPU seconds, peak MB of a program."""
     with open(folder / "stdout", "wb") as out, open(folder / "stderr", "w+b") as errors:
@@ -36,8 +54,13 @@ def measured(command, folder):
         child = subprocess.Popen([str(c) for c in command], stdin=subprocess.DEVNULL, stdout=out, stderr=errors)
         try:
             _, status, usage = os.wait4(child.pid, 0)
-        except BaseException:
-            child.kill()
+        except BaseException:  # Ctrl-C, SIGTERM: the program ends first, then its folder goes
+            child.terminate()
+            try:
+                child.wait(5)
+            except subprocess.TimeoutExpired:
+                child.kill()
+                child.wait()
             raise
         wall = time.monotonic() - start
         errors.seek(0)
@@ -61,7 +84,7 @@ def generate(run, folder):
     code, text, cost = measured([program("ribvault"), "generate", run.model.file, *run.model.placement, *run.settings, *gaps, "--seed",
                                  run.seed, "-o", folder / "out.gcode", "--report", report, "--quiet"], folder)
     if code not in (0, 1):
-        return {"refused": text.strip() or f"exit code {code}"}
+        return {"refused": why_refused(code, text)}
     full = json.loads(report.read_text())
     overhangs = full["verdict"].pop("external_overhangs")
     return {"mesh": full["input"]["mesh"], "settings": full["settings"], "totals": full["totals"],
@@ -72,14 +95,14 @@ def generate(run, folder):
 def baseline(run, folder):
     code, text, cost = measured([program("ribvault_baselines"), run.kind, run.model.file, *run.model.placement, *run.settings], folder)
     if code != 0:
-        return {"refused": text.strip() or f"exit code {code}"}
+        return {"refused": why_refused(code, text)}
     return {**json.loads((folder / "stdout").read_text()), **cost}
 
 
 def floating(run, folder):
     code, text, cost = measured([program("ribvault_floating"), run.model.file, *run.model.placement, *run.settings], folder)
     if code != 0:
-        return {"refused": text.strip() or f"exit code {code}"}
+        return {"refused": why_refused(code, text)}
     return {**json.loads((folder / "stdout").read_text()), **cost}
 
 
@@ -131,12 +154,14 @@ def spec(run):
             "settings": list(run.settings), "seed": run.seed, "version": version(run.kind)}
 
 
-def execute(run, store):
-    """The stored result, or a new one. A program that is not there gives a result that says so and is not stored."""
+def execute(run, store, make=True):
+    """The stored result, or a new one (`make`). A program that is not there gives a result that says so and is not stored."""
     if version(run.kind) is None:
         return {"refused": f"not on this machine: {', '.join(KINDS[run.kind][1])}"}
     wanted = spec(run)
     result = store.load(wanted)
+    if result is None and not make:
+        return {"refused": "not made yet"}
     if result is None:
         with tempfile.TemporaryDirectory(prefix="ribvault-run-") as scratch:
             try:

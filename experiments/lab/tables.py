@@ -48,6 +48,22 @@ class Table:
                           "\\hline", "\\end{tabular}", ""])
 
 
+def _filled(markdown):
+    """Of a table in Markdown: the cells with something in them, by (first cell of the row, how many such rows came before, heading, column); the rows."""
+    rows = [[c.strip() for c in line.strip()[1:-1].split(" | ")] for line in markdown.splitlines() if line.startswith("|")]
+    found, seen = set(), {}
+    for row in rows[2:]:
+        nth = seen[row[0]] = seen.get(row[0], -1) + 1
+        found.update((row[0], nth, heading, k) for k, (heading, cell) in enumerate(zip(rows[0], row)) if cell)
+    return found, {(label, n) for label, count in seen.items() for n in range(count + 1)}
+
+
+def emptied(before, after):
+    """How many cells of a table in Markdown have something before, and nothing after, in rows that both have."""
+    (had, _), (has, rows) = _filled(before), _filled(after)
+    return sum(cell[:2] in rows for cell in had - has)
+
+
 def mean(values):
     return statistics.mean(values) if values else None
 

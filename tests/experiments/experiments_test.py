@@ -21,7 +21,7 @@ import scaling  # noqa: E402
 from lab import meshes, race  # noqa: E402
 from lab.laboratory import Laboratory  # noqa: E402
 from lab.store import Damaged, Store  # noqa: E402
-from lab.tables import Table, growth_exponent, percent_off, spread  # noqa: E402
+from lab.tables import Table, emptied, growth_exponent, percent_off, spread  # noqa: E402
 
 
 class Scratch(unittest.TestCase):
@@ -33,8 +33,8 @@ class Scratch(unittest.TestCase):
     def command(self, *arguments):
         return [sys.executable, str(ROOT / "experiments/run.py"), *arguments, "--results", str(self.folder), "--seeds", "1"]
 
-    def run_experiments(self, *arguments):
-        return subprocess.run(self.command(*arguments), capture_output=True, text=True)
+    def run_experiments(self, *arguments, **environment):
+        return subprocess.run(self.command(*arguments), capture_output=True, text=True, env={**os.environ, **environment})
 
     def results(self):
         return {f.name: f.stat().st_mtime_ns for f in (self.folder / "runs").glob("*.json")}
@@ -84,6 +84,17 @@ class Tables(unittest.TestCase):
         self.assertEqual(table.markdown().splitlines()[2:], ["| a\\|b_c | 1.2 | yes |", "| missing |  |  |"])
         self.assertEqual(table.csv().splitlines()[1:], ["a|b_c,1.25,True", "missing,,"])
         self.assertIn("a|b\\_c & 1.2 & yes \\\\", table.latex())
+
+    def test_cells_that_would_be_emptied(self):
+        tables = [Table("t", "", [("model", ""), ("mm³", ".1f"), ("what", "")]) for _ in range(3)]
+        for table, rows in zip(tables, ((("a", 1.0), ("a", 2.0), ("b", None, "why")), (("a", 1.5), ("a", None), ("b", 3.0)), (("a", 1.0),))):
+            for row in rows:
+                table.add(*row)
+        before, after, shorter = (table.markdown() for table in tables)
+        self.assertEqual(emptied(before, after), 2)
+        self.assertEqual(emptied("words\n\n" + before, before), 0)
+        self.assertEqual(emptied(before, shorter), 0)
+        self.assertEqual(emptied("", before), 0)
 
     def test_statistics(self):
         self.assertEqual(spread([1.0, 3.0]), "2 ± 1")
@@ -176,6 +187,75 @@ class WholeRuns(Scratch):
         self.assertEqual(self.run_experiments("--check").returncode, 1)
         self.assertIn("set aside", self.run_experiments("solids").stderr)
         self.assertEqual(self.run_experiments("--check").returncode, 0)
+
+    def fake_program(self, lines):
+        """A folder with a ribvault that does `lines` first."""
+        folder = self.folder / "bin"
+        folder.mkdir(exist_ok=True)
+        (folder / "ribvault").write_text("#!/bin/sh\n" + lines + f'\nexec {os.path.realpath(os.environ["RIBVAULT"])} "$@"\n')
+        (folder / "ribvault").chmod(0o755)
+        return str(folder)
+
+    def test_runs_that_were_ended_are_made_again(self):
+        """Killed, no memory, no room on the disk, interrupted: no result; a refusal is one."""
+        sweep = ("ablations", "--sweep", "overlap=0.5")
+        for end, words in (("kill -KILL $$", "SIGKILL"), ("exit 6", "exit code 6"), ("exit 7", "exit code 7"), ("exit 130", "exit code 130")):
+            program = self.fake_program(f'[ "$2" = --help ] || [ -e {self.folder}/well ] || {{ {end}; }}')
+            self.run_experiments(*sweep, "--plan", RIBVAULT_BIN=program)
+            key = next(iter(json.loads((self.folder / "plan.json").read_text())))
+            done = self.run_experiments(*sweep, "--one", key, RIBVAULT_BIN=program)
+            self.assertEqual(done.returncode, 1, end)
+            self.assertIn(words, done.stderr)
+            self.assertEqual(self.results(), {}, end)
+        done = self.run_experiments(*sweep, RIBVAULT_BIN=program)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("start again", done.stderr)
+        self.assertEqual(self.results(), {})
+        (self.folder / "well").touch()
+        done = self.run_experiments(*sweep, RIBVAULT_BIN=program)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.table("ablation_overlap")[0]["proved"], "True")
+        for file in [*(self.folder / "runs").iterdir(), *(self.folder / "tables").iterdir()]:
+            file.unlink()
+        done = self.run_experiments(*sweep, RIBVAULT_BIN=self.fake_program('[ "$2" = --help ] || { echo too large >&2; exit 5; }'))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(len(self.results()), 0)
+        self.assertEqual(self.table("ablation_overlap")[0]["what"], "too large")
+
+    def test_numbers_do_not_give_way_to_nothing(self):
+        sweep = ("ablations", "--sweep", "overlap=0.5")
+        self.assertEqual(self.run_experiments(*sweep).returncode, 0)
+        tables = {file: file.read_bytes() for file in (self.folder / "tables").iterdir()}
+        for arguments, environment, words in (((), {"RIBVAULT_BIN": "/nowhere"}, "/nowhere/ribvault is not there"),
+                                              (("--tables-only",), {"RIBVAULT_BIN": self.fake_program("")}, "left as it is"),
+                                              (("--models", self.folder / "none"), {}, "there is no such folder"),
+                                              (("--models", ROOT / "experiments/models"), {"RIBVAULT_BIN": "/nowhere"}, "/nowhere/ribvault is not there"),
+                                              (("--models", ROOT / "experiments/models"), {}, "ribvault_baselines is not there")):
+            done = self.run_experiments(*sweep, *map(str, arguments), **environment)
+            self.assertNotEqual(done.returncode, 0, arguments)
+            self.assertIn(words, done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+            self.assertEqual({file: file.read_bytes() for file in (self.folder / "tables").iterdir()}, tables, arguments)
+
+    def test_options_that_cannot_be_are_refused_at_once(self):
+        for arguments, words in ((("--seeds", "0"), "at least 1"), (("--seeds", "-3"), "at least 1"), (("--sweep", "foo"), "OPTION=A,B"), (("--sweep", "overlap=0.3,,0.4"), "OPTION=A,B"),
+                                 (("--sweep", "seed=one"), "whole numbers"), (("--sweep", "nosuch=1,2"), "no option --nosuch")):
+            done = subprocess.run([sys.executable, ROOT / "experiments/run.py", "ablations", "--results", self.folder, *arguments], capture_output=True, text=True)
+            self.assertNotEqual(done.returncode, 0, arguments)
+            self.assertIn(words, done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+        self.assertFalse((self.folder / "runs").exists())
+
+    def test_sigterm_leaves_nothing_behind(self):
+        scratch = self.folder / "scratch"
+        scratch.mkdir()
+        child = subprocess.Popen(self.command("solids"), stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, env={**os.environ, "TMPDIR": str(scratch), "RIBVAULT_BIN": self.fake_program("sleep 0.2")})
+        while child.poll() is None and not list(scratch.glob("ribvault-run-*")):
+            time.sleep(0.01)
+        child.terminate()
+        self.assertIn("interrupted", child.communicate()[1])
+        self.assertNotEqual(child.returncode, 0)
+        self.assertEqual(list(scratch.iterdir()), [])
 
     def compare_with_docs(self, rows):
         """README's table "solids": layers and verdicts as they are, material within 1 %."""
