@@ -15,6 +15,14 @@ SWEEPS = {  # option of `ribvault generate`: values
 MODELS = ["cube", "bunny", "bunny00"]
 
 
+def is_number(text):
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
 def build(lab):
     sweeps = dict(s.split("=", 1) for s in lab.sweeps) or SWEEPS
     return [part for option, values in sweeps.items()
@@ -40,5 +48,7 @@ def sweep(lab, option, values):
             table.add(model.title, value, spread(lab.values(runs, "totals.material_mm3")), spread(supports), mean(lab.values(runs, "cpu_seconds")),
                       lab.proved(runs), lab.why(runs[0]) or model.origin)
             if supports:
-                series.setdefault(model.title, []).append((float(value), mean(supports)))
+                series.setdefault(model.title, []).append((value, mean(supports)))
+    if all(is_number(value) for value in values):
+        series = {label: [(float(value), y) for value, y in points] for label, points in series.items()}
     return [table, Plot(table.name, f"Supports against --{option}", option, "supports in mm³", series)]

@@ -17,7 +17,9 @@ PROGRAMS = tempfile.TemporaryDirectory()  # ribvault alone: the slow comparisons
 os.symlink(os.path.realpath(os.environ["RIBVAULT"]), pathlib.Path(PROGRAMS.name) / "ribvault")
 os.environ["RIBVAULT_BIN"] = PROGRAMS.name
 
+import run  # noqa: E402
 import scaling  # noqa: E402
+from drivers import ablations  # noqa: E402
 from lab import meshes, race  # noqa: E402
 from lab.laboratory import Laboratory  # noqa: E402
 from lab.store import Damaged, Store  # noqa: E402
@@ -245,6 +247,15 @@ class WholeRuns(Scratch):
             self.assertIn(words, done.stderr)
             self.assertNotIn("Traceback", done.stderr)
         self.assertFalse((self.folder / "runs").exists())
+
+    def test_words_are_swept_too(self):
+        lab = Laboratory(self.folder)
+        lab.result = lambda run: {"totals": {"support_volume_mm3": 5.0}, "verdict": {"proved": True}}
+        for option, values, x in (("strategy", ["paper", "thrifty"], ["paper", "thrifty"]), ("overlap", ["0.3", "0.5"], [0.3, 0.5])):
+            table, plot = ablations.sweep(lab, option, values)
+            self.assertEqual([row[1] for row in table.rows if row[3]][:2], values)
+            self.assertEqual([point[0] for point in next(iter(plot.series.values()))], x)
+            run.draw(plot, self.folder)
 
     def test_sigterm_leaves_nothing_behind(self):
         scratch = self.folder / "scratch"
