@@ -58,4 +58,7 @@ def photograph(page, cut, picture):
 
 
 if __name__ == "__main__":
-    photograph(pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3]))
+    try:
+        photograph(pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3]))
+    except browser.PageError as error:
+        sys.exit(f"camera: {error}")

@@ -4,9 +4,11 @@ import gc
 import json
 import os
 import pathlib
+import select
 import shutil
 import subprocess
 import tempfile
+import time
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 
@@ -14,6 +16,21 @@ NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 def find():
     """The browser's path, or None. CHROMIUM names another one."""
     return os.environ.get("CHROMIUM") or next(filter(None, map(shutil.which, NAMES)), None)
+
+
+ANSWER_SECONDS = 150  # for one command; software rendering of a large page is slow
+# Until the page says that it is built; rejects what is no run page, what could not be shown, and what takes longer than `seconds`.
+BUILT = """(seconds => new Promise((done, refuse) => {
+  const start = Date.now(), failed = () => [...document.querySelectorAll("#runs .bad")].find(e => e.textContent.startsWith("This page could not be shown"));
+  const wait = () => {
+    if (performance.getEntriesByName("built").length) done();
+    else if (document.readyState === "complete" && !document.getElementById("facts0")) refuse("no run page of ribvault");
+    else if (failed()) refuse(failed().textContent);
+    else if (Date.now() - start > 1000 * seconds) refuse(`not built within ${seconds} s`);
+    else setTimeout(wait, 20);
+  };
+  wait();
+}))"""
 
 
 class PageError(Exception):
@@ -70,8 +87,10 @@ class Browser:
             self.process.wait()
         self.profile.cleanup()
 
-    def _message(self):
+    def _message(self, until):
         while b"\0" not in self.buffer:
+            if not select.select([self.inn], [], [], max(0.0, until - time.monotonic()))[0]:
+                raise PageError("the browser does not answer")
             block = os.read(self.inn, 1 << 20)
             if not block:
                 raise PageError("the browser ended")
@@ -93,13 +112,14 @@ class Browser:
 
     def call(self, method, **params):
         """One command; its result."""
+        until = time.monotonic() + ANSWER_SECONDS
         self.serial += 1
         message = {"id": self.serial, "method": method, "params": params}
         if self.session:
             message["sessionId"] = self.session
         os.write(self.out, json.dumps(message).encode() + b"\0")
         while True:
-            answer = self._message()
+            answer = self._message(until)
             if answer.get("id") == self.serial:
                 if "error" in answer:
                     raise PageError(f"{method}: {answer['error']['message']}")
@@ -110,15 +130,21 @@ class Browser:
         """The value of an expression in the page, promises waited for."""
         answer = self.call("Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in answer:
-            raise PageError(answer["exceptionDetails"].get("exception", {}).get("description", script))
+            thrown = answer["exceptionDetails"].get("exception", {})
+            raise PageError(thrown.get("description") or thrown.get("value") or script)
         return answer["result"].get("value")
 
-    def open(self, file, fragment=""):
-        """Opens a file and waits until the page says that it is built."""
+    def open(self, file, fragment="", seconds=120):
+        """Opens a file and waits until the page says that it is built; PageError when it does not within `seconds`, or is no run page."""
         self.console.clear(), self.requests.clear()
         self.call("Page.navigate", url="about:blank")
-        self.call("Page.navigate", url=pathlib.Path(file).resolve().as_uri() + fragment)
-        self.run("""new Promise(done => { const wait = () => performance.getEntriesByName("built").length ? done() : setTimeout(wait, 20); wait(); })""")
+        answer = self.call("Page.navigate", url=pathlib.Path(file).resolve().as_uri() + fragment)
+        try:
+            if "errorText" in answer:
+                raise PageError(answer["errorText"])
+            self.run(f"{BUILT}({seconds})")
+        except PageError as error:
+            raise PageError(f"{file}: {error}") from None
 
     def resize(self, width, height, mobile=False, scale=1):
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=mobile)

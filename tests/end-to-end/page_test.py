@@ -3,6 +3,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -420,6 +421,17 @@ class Pages(unittest.TestCase):
         self.open("collar.html")
         self.assertEqual([round(v, 2) for v in self.browser.run("page.runs[0].box")], [95, 95, 155, 155])
         self.at_end()
+
+    def test_a_file_that_is_no_run_page_is_refused_at_once(self):
+        (self.folder / "other.html").write_text("<!doctype html><title>other</title><p>Nothing of ours.")
+        (self.folder / "broken.html").write_text(re.sub(r'(id="layers0">.{40}).*?</script>', r"\1</script>", (self.folder / "a.html").read_text(), count=1, flags=re.S))
+        for name, words in (("other.html", "no run page"), ("none.html", "ERR_FILE_NOT_FOUND"), ("broken.html", "could not be shown")):
+            done = subprocess.run([sys.executable, ROOT / "scripts/page-picture", name, "out.png"], cwd=self.folder, capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn(words, done.stderr)
+            self.assertIn(name, done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+            self.assertFalse((self.folder / "out.png").exists())
 
     def test_without_webgl_the_drawing_is_there(self):
         with browser.Browser(FOUND, flags=["--disable-3d-apis"]) as plain:
