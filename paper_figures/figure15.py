@@ -17,8 +17,8 @@ def chosen(stages):
             return -1
         return wall["joint_distance"] - min(wall["shell_distance"], wall["wall_distance"])
     walls = stages["growth"]["walls"]
-    best = max(range(len(walls)), key=lambda k: drawn(walls[k]))
-    if drawn(walls[best]) <= 0:
+    best = max(range(len(walls)), key=lambda k: drawn(walls[k]), default=None)
+    if best is None or drawn(walls[best]) <= 0:
         raise results.Unusable("no wall of this layer was placed by the branch bonus; take another layer, or leave --no-branch-bonus out")
     return best
 
@@ -42,7 +42,7 @@ def draw(stages):
     for end, text, value in ((shell, "$p_b$", wall["shell_distance"]), (near, "$p[2]$", wall["wall_distance"])):
         look.lines(axis, [[p, end]], "#666666", points=0.9, style="dotted", order=4)
         look.dots(axis, [end], "black", 3.2)
-        say(f"{text}: {stages.mm(value):.2f} mm", end, away, 7 if end is near else -7)
+        say(f"{text}: {stages.mm(value):.2f} mm", end, away, -7 if p[1] > end[1] else 7)  # beyond the wall as seen from p, clear of what stands on p's side
     look.lines(axis, [[p, joint]], look.WALL, points=2.2, order=5)
     bonus, far = stages.setting("branch_bonus"), stages.mm(wall["joint_distance"])
     look.dots(axis, [joint], look.WALL, 4)

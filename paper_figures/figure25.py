@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Figure 25: where walls waste, and where they need not. (a) Under a roof of low slope all walls run to one side. (b) A tip inside, far from the
-shell and near the floor, gets walls from the shell; there are no pillars inside. (c) Outside such a tip gets a tree that stands on the bed."""
+shell and near the floor, gets walls from the shell; with `--pillars` it would get a tree that stands on the floor. (c) Outside such a tip gets a tree that stands on the bed."""
 import sys
 
 import look

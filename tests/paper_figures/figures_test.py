@@ -148,6 +148,14 @@ class Figures(unittest.TestCase):
         for part in ('src="figure09.png"', "Trees &lt;merge&gt;", "a &amp; b", "CGAL&#x27;s elk", "figure09.pdf", "not made: no table"):
             self.assertIn(part, page)
 
+    def test_a_layer_without_new_walls_is_named(self):
+        self.assert_refused(self.draw(15, self.changed("stages", lambda data: data["growth"].update(walls=[]))), "no wall of this layer")
+
+    def test_a_folder_of_models_that_is_not_there_is_refused(self):
+        done = self.make("9", "--models", self.folder / "none")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("there is no such folder", done.stderr)
+
     def test_unknown_figures(self):
         done = subprocess.run([FIGURES / "make.py", "3", "--output", self.folder / "all"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
