@@ -99,7 +99,7 @@ class PrintRun {
     this.rho = facts.rho;
     this.good = facts.supported;
     /** Judged by more than ρ over the layer below: by gaps of supports, on the bed alone, inside outlines. The facts say so in words (report/print_page.cpp). */
-    this.apart = / inside the outline| removal gap| layers left empty| on the bed alone/.test(facts.words);
+    this.apart = facts.apart;
     this.features = facts.features;
     this.entries = [];
     all.forEach((r, k) => { (this.entries[r.numbers.layer] ||= []).push(k); });

@@ -80,8 +80,7 @@ function passed(run) {
 }
 
 function runWords(run) {
-  if (run.kind === "gcode")
-    return run.apart ? run.facts.words.replace("have material within ρ below", "are held up by these rules").replace("have no material within ρ below", "are not held up by these rules") : run.facts.words;
+  if (run.kind === "gcode") return run.facts.words;
   const s = run.header.settings, verdict = run.header.verdict, v = verdict.external_overhangs.length, near = (verdict.layers_with_patches_in_gap || []).length;
   const how = s.propagation === "shrink" ? "thrifty" : s.straighten ? "straightened" : "not straightened";
   const wide = s.wall_lines > 1 ? `, ${s.wall_lines} side by side in long or tall walls` : "";

@@ -102,11 +102,14 @@ Json facts(const GcodePrint& print, const PrintReport& r) {
         (r.support_gap_layers > 0 ? ", " + std::to_string(r.support_gap_layers) + " layers left empty over supports"
                                   : "") +
         (r.bed_only ? ", supports on the bed alone" : "") + "; ";
-    const bool all = r.unsupported_mm.hi == 0 && r.area_mm2.hi == 0;
-    const std::string found = all ? "all " + fixed(r.length_mm, 0) + " mm of tracks have material within ρ below."
-                                  : fixed(r.unsupported_mm.hi, 1) + " of " + fixed(r.length_mm, 0) + " mm and " +
-                                        number_text(r.area_mm2, 2) +
-                                        " mm² have no material within ρ below.";
+    const bool all = r.unsupported_mm.hi == 0 && r.area_mm2.hi == 0,
+               apart = r.inside || r.support_gap_mm > 0 || r.support_gap_layers > 0 || r.bed_only;
+    const std::string found =
+        all ? "all " + fixed(r.length_mm, 0) + " mm of tracks " +
+                  (apart ? "are held up by these rules." : "have material within ρ below.")
+            : fixed(r.unsupported_mm.hi, 1) + " of " + fixed(r.length_mm, 0) + " mm and " +
+                  number_text(r.area_mm2, 2) + " mm² " +
+                  (apart ? "are not held up by these rules." : "have no material within ρ below.");
     const std::string words = rule + found + (r.cut.empty() ? "" : " The file is cut off: " + r.cut + ".");
     return {{"kind", "gcode"},
             {"name", name},
@@ -115,6 +118,7 @@ Json facts(const GcodePrint& print, const PrintReport& r) {
             {"words", words},
             {"bridges", r.longest_bridge_mm.has_value()},
             {"rho", r.support_radius_mm},
+            {"apart", apart},  // judged by rules that are not equation (2) everywhere
             {"box", box},
             {"features", features}};
 }
