@@ -1,6 +1,7 @@
 #include "ribvault/print/gap_patches.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ribvault/exact/predicates.hpp"
 #include "ribvault/vault/cavity_boundary.hpp"
@@ -14,6 +15,32 @@ constexpr Unit within_edge = 5;
 /// The k-th of the points that divide a segment into so many pieces.
 Point division(const Segment& s, std::size_t k, std::size_t pieces) {
     return part_way(s.a, s.b, static_cast<double>(k) / static_cast<double>(pieces));
+}
+
+struct Disc {
+    Point centre;
+    double radius = 0;
+    bool holds(Point p) const { return length(p - centre) < radius; }
+};
+
+Disc disc_around(const HangingStretch& stretch) {
+    const Segment& s = stretch.track.centre;
+    const double l = length(s.b - s.a), half = static_cast<double>(stretch.track.width) / 2;
+    const double middle = std::clamp((stretch.from + stretch.to) / 2, 0.0, l);
+    return {l > 0 ? part_way(s.a, s.b, middle / l) : s.a,
+            std::max(middle - stretch.from, stretch.to - middle) + half + 1};
+}
+
+/// Pieces of about this length.
+std::vector<HangingStretch> pieces_of(const HangingStretch& stretch, Unit size) {
+    const double l = length(stretch.track.centre.b - stretch.track.centre.a),
+                 half = static_cast<double>(stretch.track.width) / 2;
+    const double from = std::max(stretch.from, -half), to = std::min(stretch.to, l + half);
+    const int count = static_cast<int>((to - from) / static_cast<double>(size)) + 1;
+    std::vector<HangingStretch> pieces;
+    for (int k = 0; k < count; ++k)
+        pieces.push_back({stretch.track, from + (to - from) * k / count, from + (to - from) * (k + 1) / count});
+    return pieces;
 }
 
 }  // namespace
@@ -126,11 +153,14 @@ bool GapPatches::add(const Segment& hanging, bool again) {
            (!object_first && add_object(hanging, settings_.reach_of_object()));
 }
 
-/// The allowed place nearest to p, if within reach.
-std::optional<Point> GapPatches::place_for_wall(Point p, Unit reach) const {
+/// The allowed place nearest to p, if within reach. Else `beyond` is by how much every such place is farther than that:
+/// what is less than so far from p has none either.
+std::optional<Point> GapPatches::place_for_wall(Point p, Unit reach, double* beyond) const {
+    if (beyond) *beyond = HUGE_VAL;
     if (walls_.edges.empty()) return std::nullopt;
     if (walls_.holds(p)) return p;
     const Point near = nearest_point(p, walls_.nearest_edge(p));
+    if (beyond) *beyond = std::max(0.0, length(near - p) - static_cast<double>(reach) - 2);
     for (Unit ring = 1; ring <= 3; ++ring)
         for (Unit dy = -ring; dy <= ring; ++dy)
             for (Unit dx = -ring; dx <= ring; ++dx)
@@ -161,16 +191,35 @@ bool GapPatches::add_support(const Segment& hanging) {
 }
 
 bool GapPatches::add_under_rim(const HangingStretch& hanging, const std::vector<Lane>& material) {
-    // One place after the other, each for all that it reaches.
     const Unit reach = settings_.nozzle / 2 + settings_.support_radius - sampling_room;
-    std::vector<Point> open = hanging_points(hanging, material, settings_.support_radius);
+    std::vector<Point> open;
+    bool all_in_reach = true;
+    // Piece by piece: where nothing may stand within reach of any of it, its points need not be looked at.
+    for (const HangingStretch& piece : pieces_of(hanging, settings_.nozzle)) {
+        const Disc disc = disc_around(piece);
+        double beyond = 0;
+        if (!place_for_wall(disc.centre, reach, &beyond) && beyond > disc.radius) {
+            all_in_reach = false;
+            continue;
+        }
+        const std::vector<Point> points = hanging_points(piece, material, settings_.support_radius);
+        open.insert(open.end(), points.begin(), points.end());
+    }
+    if (open.empty() && all_in_reach) open = {nearest_to_hanging(hanging, material, settings_.support_radius)};
+    // One place after the other, each for all that it reaches.
     const std::size_t before = patches_.size();
-    while (!open.empty()) {
-        const std::optional<Point> place = place_for_wall(open.front(), reach);
-        if (place && may_stand({*place, *place})) patches_.push_back({{*place, *place}, TrackKind::external_support});
-        const Point first = open.front();
-        std::erase_if(open,
-                      [&](Point p) { return p == first || (place && squared_length(p - *place) <= reach * reach); });
+    std::vector<Point> places;
+    Disc out_of_reach;
+    for (const Point p : open) {
+        const auto is_near = [&](Point place) { return squared_length(p - place) <= reach * reach; };
+        if (out_of_reach.holds(p) || std::any_of(places.begin(), places.end(), is_near)) continue;
+        double beyond = 0;
+        if (const std::optional<Point> place = place_for_wall(p, reach, &beyond)) {
+            places.push_back(*place);
+            if (may_stand({*place, *place})) patches_.push_back({{*place, *place}, TrackKind::external_support});
+        } else {
+            out_of_reach = {p, beyond};
+        }
     }
     return patches_.size() > before;
 }

@@ -67,7 +67,7 @@ private:
     Point place_in_object(Point p) const;
     bool is_printed(Point p, Unit beyond) const;
     bool supports_reach_rim(Point p) const;
-    std::optional<Point> place_for_wall(Point p, Unit reach) const;
+    std::optional<Point> place_for_wall(Point p, Unit reach, double* beyond = nullptr) const;
     bool add_object(const Segment& hanging, Unit reach, bool at_edge = false);
     bool add_support(const Segment& hanging);
 

@@ -114,12 +114,15 @@ bool less_far(const Section& a, const Section& b) { return a.excess < b.excess; 
 }  // namespace
 
 std::vector<Point> hanging_points(const HangingStretch& stretch, const std::vector<Lane>& material, Unit rho) {
-    const std::vector<Section> sections = look_at(stretch, material, rho);
     std::vector<Point> points;
-    for (const Section& section : sections)
+    for (const Section& section : look_at(stretch, material, rho))
         for (const Vec p : section.beyond) points.push_back(rounded(p));
-    if (points.empty()) points.push_back(rounded(std::max_element(sections.begin(), sections.end(), less_far)->worst));
     return points;
+}
+
+Point nearest_to_hanging(const HangingStretch& stretch, const std::vector<Lane>& material, Unit rho) {
+    const std::vector<Section> sections = look_at(stretch, material, rho);
+    return rounded(std::max_element(sections.begin(), sections.end(), less_far)->worst);
 }
 
 std::optional<PlacedDot> place_dot(const HangingStretch& stretch, const std::vector<Lane>& material, Unit width,

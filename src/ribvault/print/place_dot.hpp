@@ -25,8 +25,10 @@ struct HangingStretch {
 inline constexpr Unit sampling_room = 1000;
 
 /// Points of a stretch's cross-sections that are beyond the reach of all material, 10 µm along and 4 µm across from
-/// each other; where there are none, the one that is nearest to that.
+/// each other.
 std::vector<Point> hanging_points(const HangingStretch& stretch, const std::vector<Lane>& material, Unit rho);
+/// The sample of it that is the farthest from all material, within reach or not.
+Point nearest_to_hanging(const HangingStretch& stretch, const std::vector<Lane>& material, Unit rho);
 
 struct PlacedDot {
     Point at;
