@@ -153,8 +153,6 @@ bool GapPatches::add(const Segment& hanging, bool again) {
            (!object_first && add_object(hanging, settings_.reach_of_object()));
 }
 
-/// The allowed place nearest to p, if within reach. Else `beyond` is by how much every such place is farther than that:
-/// what is less than so far from p has none either.
 std::optional<Point> GapPatches::place_for_wall(Point p, Unit reach, double* beyond) const {
     if (beyond) *beyond = HUGE_VAL;
     if (walls_.edges.empty()) return std::nullopt;
@@ -169,8 +167,6 @@ std::optional<Point> GapPatches::place_for_wall(Point p, Unit reach, double* bey
     return std::nullopt;
 }
 
-/// Where walls must keep off what is right under a stretch: patches at the nearest places where they need not, as far
-/// as these can hold up all that a track over there would: within ρ. Says no when none can.
 bool GapPatches::add_support(const Segment& hanging) {
     const auto pieces = static_cast<std::size_t>(4 * length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
     std::vector<Point> at;

@@ -31,6 +31,14 @@ public:
     /// printed at its very edge, though that stands into the gap. Says no when nothing can be done so.
     bool add(const Segment& hanging, bool again);
 
+    /// Where walls must keep off what is right under a stretch: patches at the nearest places where they need not, as
+    /// far as these can hold up all that a track over there would: within ρ. Says no when none can.
+    bool add_support(const Segment& hanging);
+
+    /// The place nearest to p where walls may run, if within reach. Else `beyond` is by how much every such place is
+    /// farther than that: what is less than so far from p has none either.
+    std::optional<Point> place_for_wall(Point p, Unit reach, double* beyond = nullptr) const;
+
     /// Supports where they may stand and hold up what hangs, its rim included, though they cannot hold up the whole
     /// stretch. `material`: what is there and may hold it up, as wide as it counts.
     bool add_under_rim(const HangingStretch& hanging, const std::vector<Lane>& material);
@@ -67,9 +75,7 @@ private:
     Point place_in_object(Point p) const;
     bool is_printed(Point p, Unit beyond) const;
     bool supports_reach_rim(Point p) const;
-    std::optional<Point> place_for_wall(Point p, Unit reach, double* beyond = nullptr) const;
     bool add_object(const Segment& hanging, Unit reach, bool at_edge = false);
-    bool add_support(const Segment& hanging);
 
     const LayerPlan& plan_;
     const PlanTracks& tracks_;

@@ -99,7 +99,7 @@ private:
                                  is_external_support);
                     return holding;
                 },
-                false);
+                false, true);
         if (over_gap_ && !over_gap_->hanging->tracks.empty())
             add_part(
                 over_gap_->hanging->tracks,
@@ -110,11 +110,12 @@ private:
                 },
                 true);
     }
-    void add_part(std::vector<PrintedTrack> tracks, PrintJudgement::Holding holding, bool over_gap) {
+    void add_part(std::vector<PrintedTrack> tracks, PrintJudgement::Holding holding, bool over_gap,
+                  bool on_supports = false) {
         auto layer = std::make_shared<PrintedLayer>();
         layer->tracks = std::move(tracks);
         PrintJudgement judgement(*layer, *held_.printed, settings_, std::move(holding));
-        held_.parts.push_back({std::move(layer), std::move(judgement), over_gap});
+        held_.parts.push_back({std::move(layer), std::move(judgement), over_gap, false, on_supports});
     }
 
     void lay_supports() {
@@ -151,11 +152,13 @@ private:
     /// What of the layer above inside the outline is not held up.
     std::vector<HangingTrack> open() const {
         std::vector<HangingTrack> all;
-        for (const PrintPart& part : held_.parts) append_open(part.judgement, part.over_gap, part.inside, all);
+        for (const PrintPart& part : held_.parts) append_open(part.judgement, {nullptr, {}, part.over_gap, part.inside, part.on_supports}, all);
+        // Supports that must not stand on the object are mended where nothing but supports counts.
+        if (settings_.bed_only)
+            std::erase_if(all, [](const HangingTrack& h) { return !h.on_supports && is_external_support(*h.track); });
         return all;
     }
-    static void append_open(const PrintJudgement& judgement, bool over_gap, bool inside,
-                            std::vector<HangingTrack>& all) {
+    static void append_open(const PrintJudgement& judgement, const HangingTrack& like, std::vector<HangingTrack>& all) {
         const std::vector<PrintedTrack>& tracks = judgement.above().tracks;
         std::vector<OpenStretch> stretches = judgement.open();
         // A track that is found wanting without a stretch that shows where is mended as a whole.
@@ -169,7 +172,8 @@ private:
         }
         std::stable_sort(stretches.begin(), stretches.end(),
                          [](const OpenStretch& a, const OpenStretch& b) { return a.track < b.track; });
-        for (const OpenStretch& stretch : stretches) all.push_back({&tracks[stretch.track], stretch, over_gap, inside});
+        for (const OpenStretch& stretch : stretches)
+            all.push_back({&tracks[stretch.track], stretch, like.over_gap, like.inside, like.on_supports});
     }
 
     /// Branches whose gap may be what lets something hang reach their junction from now on. How many walls are new.
@@ -236,7 +240,7 @@ private:
             return counted_below(below.tracks, settings_);
         });
         std::vector<HangingTrack> hanging;
-        append_open(judgement, false, false, hanging);
+        append_open(judgement, {}, hanging);
         if (hanging.empty()) return;
         patches().add_to_object(hanging);
         lay_patches();

@@ -25,6 +25,7 @@ struct PrintPart {
     PrintJudgement judgement;
     bool over_gap = false;  ///< it is of what hangs over a gap
     bool inside = false;    ///< it is of what lies inside the outline alone (settings.outside_apart())
+    bool on_supports = false;  ///< it is of external supports over such alone (settings.bed_only)
 };
 
 /// A layer that has another one on it.

@@ -34,7 +34,9 @@ PrintPatches::PrintPatches(LayerPlan plan, const Cavity* beside, const Region* w
       beside_(beside),
       object_over_gap_(object_over_gap),
       settings_(settings) {
-    if (beside && beside->walls) gap_patches_.emplace(*beside, walls_below_gap, plan_, tracks_, patches_, settings);
+    if (!beside || !beside->walls) return;
+    gap_patches_.emplace(*beside, walls_below_gap, plan_, tracks_, patches_, settings);
+    supports_ = NearestSegment(segments_of(plan_, TrackKind::external_support));
 }
 
 Unit PrintPatches::lay(LayerPlan& plan) const {
@@ -63,10 +65,11 @@ Point PrintPatches::nearest_material(Point p, std::size_t patches) const {
 }
 
 // The tracks and patches that come near a stretch; the object's are `wider` by what it holds up farther than ρ.
-std::vector<Lane> PrintPatches::material_near(const Segment& stretch, Unit wider) const {
+std::vector<Lane> PrintPatches::material_near(const Segment& stretch, Unit wider, bool of_supports) const {
     const Unit reach = 2 * settings_.nozzle + 2 * settings_.support_radius + wider;
     std::vector<Lane> lanes;
     const auto add = [&](const Segment& centre, Unit width, TrackKind kind) {
+        if (of_supports && kind != TrackKind::external_support) return;
         lanes.push_back({centre, kind == TrackKind::external_support ? width : width + wider});
     };
     tracks_.segments().visit(bounding_box(stretch, reach), [&](std::uint32_t k) {
@@ -91,11 +94,70 @@ std::optional<PlacedDot> PrintPatches::place(const HangingTrack& hanging) const 
 bool PrintPatches::patch_at_gap(const HangingTrack& hanging, bool again) {
     const bool added = gap_patches_->add(hanging.place(), again);
     if (added && !again) return true;
+    return gap_patches_->add_under_rim(hanging.stretch_of_lane(), material_under(hanging)) || added;
+}
+
+// What is there and may hold up a stretch outside, with a removal gap.
+std::vector<Lane> PrintPatches::material_under(const HangingTrack& hanging) const {
+    if (hanging.on_supports) return material_near(hanging.place(), 0, true);
     std::vector<Lane> material =
         material_near(hanging.place(), 2 * (settings_.reach_of_object() - settings_.support_radius));
     if (hanging.over_gap)
         for (const PrintedTrack& track : object_over_gap_) material.push_back(lane_of(track));
-    return gap_patches_->add_under_rim(hanging.stretch_of_lane(), material) || added;
+    return material;
+}
+
+// With a removal gap, of an external support: beside the object nothing but supports reaches all of it.
+bool PrintPatches::needs_support(const HangingTrack& hanging) const {
+    return gap_patches_ && !hanging.inside && is_external_support(*hanging.track);
+}
+
+// From p, where a support's patch may stand above, to where one may on this layer, no farther than `by`, and towards
+// the nearest support, if it can be reached before the bed. Otherwise dots would stand upon dots down to there.
+Point PrintPatches::towards_support(Point p, Unit by) const {
+    Point near = p;
+    double least = static_cast<double>(plan_.layer) * static_cast<double>(by);
+    const auto look = [&](const Segment& s) {
+        const Point q = nearest_point(p, s);
+        if (const double d = length(q - p); d < least) near = q, least = d;
+    };
+    if (!supports_.empty()) look(supports_.segments()[supports_.nearest(p).index]);
+    for (const Patch& patch : patches_)
+        if (patch.kind == TrackKind::external_support) look(patch.segment);
+    const double share = near == p ? 0 : std::min(1.0, static_cast<double>(by) / least);
+    for (const double part : {1.0, 0.75, 0.5, 0.25})
+        if (const auto place = gap_patches_->place_for_wall(part_way(p, near, part * share), by);
+            place && squared_length(*place - p) <= by * by)
+            return *place;
+    return gap_patches_->place_for_wall(p, by).value_or(p);
+}
+
+// Under an external support beside a removal gap: a dot as near to other supports as can be; else its ends, each moved
+// towards these.
+void PrintPatches::add_support(const HangingTrack& hanging, bool late) {
+    const std::vector<Lane> material = material_under(hanging);
+    if (!late) {
+        const std::optional<PlacedDot> dot =
+            place_dot(hanging.stretch_of_lane(), material, settings_.nozzle, settings_.support_radius);
+        if (dot && !dot->needed) return;
+        if (const Segment s{dot ? dot->at : Point{}, dot ? dot->at : Point{}}; dot && may_stand_outside(s)) {
+            patches_.push_back({s, TrackKind::external_support});
+            return;
+        }
+    }
+    const Segment s = hanging.place();
+    const Unit half = round_to_lattice(length(s) / 2) + 2;
+    Segment place{towards_support(s.a, step()), towards_support(s.b, step())};
+    if (half < step()) {
+        const Point middle = towards_support({(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2}, step() - half);
+        place = {middle, middle};
+    }
+    const bool again = std::find(tried_.begin(), tried_.end(), s.a) != tried_.end();
+    tried_.push_back(s.a);
+    if (!again && may_stand_outside(place))
+        patches_.push_back({place, TrackKind::external_support});
+    else if (!gap_patches_->add_support(s) || again)
+        gap_patches_->add_under_rim(hanging.stretch_of_lane(), material);
 }
 
 // Of the patches from `before` on, those that were there already. Each would be a track of its own, to be held up
@@ -125,6 +187,11 @@ std::vector<HangingTrack> PrintPatches::farthest_first(const std::vector<Hanging
 void PrintPatches::add(const std::vector<HangingTrack>& open, bool late) {
     const std::size_t before = patches_.size();
     for (const HangingTrack& hanging : farthest_first(open)) {
+        // Where the object may hold up supports, it is asked for when dots have been tried in vain.
+        if (needs_support(hanging) && (hanging.on_supports || !late)) {
+            add_support(hanging, late);
+            continue;
+        }
         const std::optional<Segment> place = place_under(hanging, late, before);
         if (!place) continue;
         const bool outside = outline_.locate(place->a) == Side::outside || outline_.locate(place->b) == Side::outside;

@@ -20,9 +20,9 @@ Lane lane_of(const PrintedTrack& track);
 
 /// A stretch of a track of the layer above that is not held up.
 struct HangingTrack {
-    const PrintedTrack* track;
+    const PrintedTrack* track = nullptr;
     OpenStretch stretch;
-    bool over_gap, inside;  ///< of the part that was judged (PrintPart)
+    bool over_gap = false, inside = false, on_supports = false;  ///< of the part that was judged (PrintPart)
     Segment place() const { return place_of(*track, stretch); }
     HangingStretch stretch_of_lane() const;
 };
@@ -53,8 +53,12 @@ public:
 private:
     std::vector<HangingTrack> farthest_first(const std::vector<HangingTrack>& open) const;
     Point nearest_material(Point p, std::size_t patches) const;
-    std::vector<Lane> material_near(const Segment& stretch, Unit wider = 0) const;
+    std::vector<Lane> material_near(const Segment& stretch, Unit wider = 0, bool of_supports = false) const;
     std::optional<PlacedDot> place(const HangingTrack& hanging) const;
+    bool needs_support(const HangingTrack& hanging) const;
+    void add_support(const HangingTrack& hanging, bool late);
+    Point towards_support(Point p, Unit by) const;
+    std::vector<Lane> material_under(const HangingTrack& hanging) const;
     bool patch_at_gap(const HangingTrack& hanging, bool again);
     void drop_repeated(std::size_t before);
     std::optional<Segment> place_under(const HangingTrack& hanging, bool late, std::size_t before);
@@ -72,6 +76,7 @@ private:
     std::vector<Patch> patches_;
     std::set<std::tuple<TrackKind, Point, Point>> laid_;  ///< patches_
     std::vector<Point> tried_;
+    NearestSegment supports_;                ///< of the plan's tracks the external supports, with a removal gap
     std::optional<GapPatches> gap_patches_;  ///< with a removal gap
 };
 
