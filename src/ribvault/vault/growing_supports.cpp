@@ -3,7 +3,26 @@
 #include <algorithm>
 #include <limits>
 
+#include "ribvault/vault/tree_walk.hpp"
+
 namespace ribvault {
+namespace {
+
+/// Trees that are no longer than this, and no farther from another one, are at the same place as that (10 µm: what is
+/// printed as two dots would lie on each other).
+constexpr Unit same_place = 1000;
+
+Box around(Point p, double reach) {
+    const Unit by = static_cast<Unit>(reach) + 1;
+    return {{p.x - by, p.y - by}, {p.x + by, p.y + by}};
+}
+
+SquaredDistance squared(double distance) {
+    const auto whole = static_cast<Int128>(distance);
+    return {whole * whole, 1};
+}
+
+}  // namespace
 
 GrowingSupports::GrowingSupports(SupportForest forest, const Box& cavity_box, const CavityBoundary& boundary,
                                  const Settings& settings)
@@ -69,9 +88,10 @@ bool GrowingSupports::edge_bars(const Segment& way, bool at_root) const {
     return barred;
 }
 
-bool GrowingSupports::free_way(Point from, Point to, std::uint32_t wall) const {
+bool GrowingSupports::free_way(Point from, Point to, std::uint32_t wall, std::size_t own) const {
     const Segment way{from, to};
-    return !walls_bar(way, [&](std::uint32_t w) { return w == wall; }) && !edge_bars(way, false);
+    const auto meets = [&](std::uint32_t w) { return w == wall || walls_[w].a == own || walls_[w].b == own; };
+    return !walls_bar(way, meets) && !edge_bars(way, false);
 }
 
 bool GrowingSupports::free_way(Point from, std::size_t to) const {
@@ -93,20 +113,6 @@ std::size_t GrowingSupports::split(std::uint32_t wall, Point near) {
     return v;
 }
 
-namespace {
-
-Box around(Point p, double reach) {
-    const Unit by = static_cast<Unit>(reach) + 1;
-    return {{p.x - by, p.y - by}, {p.x + by, p.y + by}};
-}
-
-SquaredDistance squared(double distance) {
-    const auto whole = static_cast<Int128>(distance);
-    return {whole * whole, 1};
-}
-
-}  // namespace
-
 double GrowingSupports::longest_wall() const {
     if (!boundary_.free_trees) return std::numeric_limits<double>::infinity();
     // A wall of length L loses one step a layer: L² / (2 step) in all, less what the bed cuts off.
@@ -117,18 +123,19 @@ double GrowingSupports::longest_wall() const {
 }
 
 std::optional<std::uint32_t> GrowingSupports::nearest_wall(Point p, const SquaredDistance& limit,
-                                                           SquaredDistance& distance) const {
+                                                           SquaredDistance& distance, std::size_t from,
+                                                           const std::vector<char>& own) const {
     std::optional<std::uint32_t> wall;
     const double farthest = std::sqrt(limit.value());
     // Searched in growing squares.
     for (double reach = std::min(farthest, 2.0 * static_cast<double>(settings_.nozzle));; reach *= 2) {
         grid_.visit(around(p, reach), [&](std::uint32_t w) {
-            if (!walls_[w].alive) return;
+            if (!walls_[w].alive || (walls_[w].a < own.size() && own[walls_[w].a])) return;
             const SquaredDistance d = squared_distance(p, segment(w));
             const int order = wall ? compare(d, distance) : compare(d, limit);
             if (order > 0 || (order == 0 && (!wall || w >= *wall))) return;
             // Nothing nearer than the shell is behind it.
-            if (boundary_.rooted || free_way(p, nearest_point(p, segment(w)), w)) wall = w, distance = d;
+            if (boundary_.rooted || free_way(p, nearest_point(p, segment(w)), w, from)) wall = w, distance = d;
         });
         if ((wall && std::sqrt(distance.value()) <= reach) || reach >= farthest) return wall;
     }
@@ -154,6 +161,66 @@ void GrowingSupports::add_pillar(Point p) {
         if (boundary_.location.locate(end) == Side::inside && free_way(end, centre))
             connect(add_vertex(SupportVertex{end}, forest_), centre);
     }
+}
+
+/// Does a wall from the vertex go about the same way, and at least as far?
+bool GrowingSupports::runs_along(std::size_t vertex, Point arm) const {
+    for (auto [next, end] = adjacent_vertices(vertex, forest_); next != end; ++next) {
+        const Point wall = forest_[*next].at - forest_[vertex].at;
+        const double along = static_cast<double>(wall.x) * static_cast<double>(arm.x) +
+                             static_cast<double>(wall.y) * static_cast<double>(arm.y);
+        if (along > 0.7 * length(wall) * length(arm) && length(wall) >= length(arm)) return true;
+    }
+    return false;
+}
+
+void GrowingSupports::mend_free_tree(std::size_t root) {
+    const TreeWalk tree = walk_from(root, forest_);
+    double track = 0;
+    std::vector<char> own(num_vertices(forest_), 0);
+    for (std::size_t k = 0; k < tree.order.size(); ++k) {
+        own[tree.order[k]] = 1;
+        track += tree.distance[k] - tree.distance[tree.parent[k]];
+    }
+    if (2 * track >= static_cast<double>(settings_.pillar_length)) return;
+    Point p = forest_[root].at;
+    if (track <= static_cast<double>(same_place)) {
+        bool there = false;
+        grid_.visit(around(p, static_cast<double>(same_place)), [&](std::uint32_t w) {
+            there = there || (walls_[w].alive && !own[walls_[w].a] && compare_distance(p, segment(w), same_place) <= 0);
+        });
+        if (there) {
+            for (Wall& wall : walls_)
+                if (own[wall.a]) wall.alive = false;
+            for (const std::size_t v : tree.order) clear_vertex(v, forest_), left_out_.push_back(v);
+            return;
+        }
+    }
+    // Where rounding put the root beside the region, what is new begins in it: ways outside it would meet no edge.
+    std::size_t centre = root;
+    if (boundary_.location.locate(p) != Side::inside) {
+        const std::optional<Point> inside = place_inside(p);
+        if (!inside || squared_length(*inside - p) > root_tolerance * root_tolerance * 4) return;
+        p = *inside;
+        centre = add_vertex(SupportVertex{p}, forest_);
+        own.push_back(1);
+        connect(centre, root);
+    }
+    SquaredDistance distance{0, 1};
+    if (const std::optional<std::uint32_t> wall = nearest_wall(p, squared(longest_wall()), distance, centre, own)) {
+        forest_[root].root = forest_[root].free = false;
+        connect(centre, split(*wall, p));
+        return;
+    }
+    const Unit arm = settings_.pillar_length / 4;
+    for (const Unit reach : {arm, arm / 2, arm / 4})
+        for (const Point d : {Point{reach, 0}, Point{0, reach}, Point{-reach, 0}, Point{0, -reach}}) {
+            if (track + static_cast<double>(reach) > static_cast<double>(settings_.pillar_length)) return;
+            if (runs_along(centre, d) || boundary_.location.locate(p + d) != Side::inside || !free_way(p + d, centre))
+                continue;
+            connect(add_vertex(SupportVertex{p + d}, forest_), centre);
+            track += static_cast<double>(reach);
+        }
 }
 
 void GrowingSupports::add_wall(Point at, Unit bonus) {
@@ -218,12 +285,14 @@ void GrowingSupports::add_tip(Point p, std::size_t joint) {
 }
 
 SupportForest GrowingSupports::take() {
-    if (!settings_.trim) return std::move(forest_);
+    if (!settings_.trim && left_out_.empty()) return std::move(forest_);
     // Vertices whose walls were taken away again go; dots from above stay.
     SupportForest kept;
     std::vector<std::size_t> place(num_vertices(forest_));
+    std::vector<char> left_out(place.size(), 0);
+    for (const std::size_t v : left_out_) left_out[v] = 1;
     for (std::size_t v = 0; v < place.size(); ++v)
-        if (out_degree(v, forest_) > 0 || v < inherited_vertices_ || forest_[v].free)
+        if (!left_out[v] && (out_degree(v, forest_) > 0 || v < inherited_vertices_ || forest_[v].free))
             place[v] = add_vertex(forest_[v], kept);
     for (auto [e, end] = edges(forest_); e != end; ++e)
         add_edge(place[source(*e, forest_)], place[target(*e, forest_)], kept);

@@ -26,6 +26,12 @@ public:
     /// leaves: the wall goes to the point of the region nearest to it.
     void add_wall(Point p, Unit bonus);
 
+    /// Mends the free tree with this root if where walls may run has cut it to less than half a pillar: it joins the
+    /// nearest wall of another tree where that takes less track down to the bed than a pillar, or goes on as a pillar
+    /// itself, with arms where there is room. What has shrunk to a point beside another tree is left out: its place is
+    /// printed already. The root's number stays.
+    void mend_free_tree(std::size_t root);
+
     /// A wall that add_wall added, from its new vertex to where it joined.
     struct NewWall {
         std::size_t vertex, joint;
@@ -67,14 +73,20 @@ private:
     /// Does an edge of the boundary? `at_root`: the way ends in a root on the shell and may meet the boundary there.
     bool edge_bars(const Segment& way, bool at_root) const;
     bool free_way(Point from, std::size_t to) const;
-    bool free_way(Point from, Point to, std::uint32_t wall) const;  ///< `to` lies on that wall
+    /// `to` lies on that wall; `own`: the vertex at `from`, if there is one.
+    bool free_way(Point from, Point to, std::uint32_t wall, std::size_t own = no_vertex) const;
     double longest_wall() const;                                    ///< that takes less track than a pillar
-    std::optional<std::uint32_t> nearest_wall(Point p, const SquaredDistance& limit, SquaredDistance& distance) const;
+    /// `from`: the vertex at p, if there is one, and `own` what of the vertices is of its tree.
+    std::optional<std::uint32_t> nearest_wall(Point p, const SquaredDistance& limit, SquaredDistance& distance,
+                                              std::size_t from = no_vertex, const std::vector<char>& own = {}) const;
+    bool runs_along(std::size_t vertex, Point arm) const;
     std::optional<Point> place_inside(Point p) const;
     void add_pillar(Point p);
     std::size_t split(std::uint32_t wall, Point near);
 
+    static constexpr std::size_t no_vertex = static_cast<std::size_t>(-1);
     std::vector<NewWall> new_walls_;
+    std::vector<std::size_t> left_out_;  ///< vertices of trees that mend_free_tree left out
     std::size_t inherited_vertices_ = 0;
     SupportForest forest_;
     const CavityBoundary& boundary_;

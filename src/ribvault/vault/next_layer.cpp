@@ -9,6 +9,7 @@
 #include "ribvault/vault/erode_supports.hpp"
 #include "ribvault/vault/free_trees.hpp"
 #include "ribvault/vault/grow_supports.hpp"
+#include "ribvault/vault/growing_supports.hpp"
 #include "ribvault/vault/shrink_supports.hpp"
 #include "ribvault/vault/straighten_supports.hpp"
 #include "ribvault/vault/wall_stability.hpp"
@@ -47,6 +48,17 @@ Region unsupported_pieces(const CopiedSupports& copied, const SupportForest& pro
     const Region more = unsupported_walls(outside, propagated, nullptr, settings);
     unsupported.insert(unsupported.end(), more.begin(), more.end());
     return unsupported;
+}
+
+/// Trees that where walls may run has cut to less than they need to stand free get it back.
+void mend_free_trees(SupportForest& forest, const CavityBoundary& boundary, const Settings& settings) {
+    std::vector<std::size_t> roots;
+    for (auto [v, end] = vertices(forest); v != end; ++v)
+        if (forest[*v].free) roots.push_back(*v);
+    if (roots.empty()) return;
+    GrowingSupports supports(std::move(forest), boundary.location.box(), boundary, settings);
+    for (const std::size_t root : roots) supports.mend_free_tree(root);
+    forest = supports.take();
 }
 
 }  // namespace
@@ -89,6 +101,7 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
                 straightened.left_cavity ? clip_again(straightened.forest, boundary) : std::move(straightened.forest);
         }
         if (boundary.free_trees) centre_free_trees(propagated);
+        if (boundary.free_trees && !boundary.rooted) mend_free_trees(propagated, boundary, settings);
         result.unsupported = unsupported_pieces(copied, propagated, cavity, settings);
         result.unsupported.insert(result.unsupported.end(), overhang.begin(), overhang.end());
         if (cavity.walls) result.unsupported = within_reach(result.unsupported, *cavity.walls, settings);
