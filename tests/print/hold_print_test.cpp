@@ -252,11 +252,33 @@ TEST_CASE("a verdict does not believe what mending said: a track taken away afte
 TEST_CASE("steps below 5 um are left out, a path shorter than that is a dot, ends stay") {
     LayerPlan plan;
     plan.tracks.push_back(track(TrackKind::support, false, {{0, 0}, {100, 0}, {1000, 0}, {1200, 0}}));
-    plan.tracks.push_back(track(TrackKind::support, false, {{0, 0}, {300, 0}}));
+    plan.tracks.push_back(track(TrackKind::support, false, {{0, mm}, {300, mm}}));
     plan.tracks.push_back(track(TrackKind::outer_perimeter, true, {{0, 0}, {mm, 0}, {mm, 100}, {mm, mm}, {0, 200}}));
     drop_tiny_steps(plan);
     CHECK(plan.tracks[0].paths[0].points == std::vector<Point>{{0, 0}, {1200, 0}});
-    CHECK(plan.tracks[1].paths[0].points == std::vector<Point>{{0, 0}});
+    CHECK(plan.tracks[1].paths[0].points == std::vector<Point>{{0, mm}});
     CHECK(plan.tracks[2].paths[0].points == std::vector<Point>{{0, 0}, {mm, 0}, {mm, mm}});
     CHECK(plan.tracks[2].paths[0].closed);
+}
+
+TEST_CASE("a support that is but a dot is not printed where a track of its kind runs") {
+    const auto support = [](TrackKind kind, std::vector<Point> points, std::size_t after = no_stop) {
+        PlannedTrack t = track(kind, false, std::move(points));
+        t.after = after;
+        return t;
+    };
+    LayerPlan plan;
+    plan.tracks.push_back(support(TrackKind::support, {{1000, 200}, {1200, 200}}));  // 2 um beside the next
+    plan.tracks.push_back(support(TrackKind::support, {{0, 0}, {mm, 0}}, 0));        // waits for it
+    plan.tracks.push_back(support(TrackKind::support, {{1000, 600}}));               // 6 um beside
+    plan.tracks.push_back(support(TrackKind::support, {{1000, 700}, {1000, 900}}));  // 1 um from the dot before
+    plan.tracks.push_back(support(TrackKind::external_support, {{1000, 0}}));        // stands on other things
+    plan.tracks.push_back(support(TrackKind::support, {{mm, 0}, {mm, mm}}, 3));
+    drop_tiny_steps(plan);
+    REQUIRE(plan.tracks.size() == 4);
+    CHECK(plan.tracks[0].paths[0].points.size() == 2);
+    CHECK(plan.tracks[0].after == no_stop);
+    CHECK(plan.tracks[1].paths[0].points == std::vector<Point>{{1000, 600}});
+    CHECK(plan.tracks[2].paths[0].kind == TrackKind::external_support);
+    CHECK(plan.tracks[3].after == no_stop);
 }

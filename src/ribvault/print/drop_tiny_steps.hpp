@@ -15,7 +15,8 @@ inline bool is_tiny_step(Point a, Point b) { return squared_length(b - a) < shor
 /// open path stay. A path that is shorter than that as a whole becomes a dot at its first point. No point of a centre
 /// line moves farther than shortest_step: a choice, made before anything is proved about the print.
 void drop_tiny_steps(ToolPath& path);
-/// Of all paths of the plan.
+/// Of all paths of the plan; then supports that are a dot are left out where the centre line of another track of their
+/// kind, no narrower, runs no farther than shortest_step from it: a second dot there would be twice the filament.
 void drop_tiny_steps(LayerPlan& plan);
 
 }  // namespace ribvault
