@@ -92,3 +92,33 @@ TEST_CASE("on the bed alone a dot goes to the next support layer by layer, not d
     CHECK(x > 3 * mm);
     CHECK(above.tracks.size() <= 1);
 }
+
+TEST_CASE("a patch of the object keeps its centre line in the slice, around a notch and along a hollow edge") {
+    Settings settings;
+    settings.support = Support::external;
+    settings.support_gap = 20000;
+    // The object, left of x = 0, has a notch of 0.3 x 0.3 mm at its edge.
+    Cavity beside = right_of_object(40000);
+    beside.on_bed = false;
+    beside.region = {{{0, -20 * mm},
+                      {40 * mm, -20 * mm},
+                      {40 * mm, 20 * mm},
+                      {0, 20 * mm},
+                      {0, 15000},
+                      {-30000, 15000},
+                      {-30000, -15000},
+                      {0, -15000}}};
+    const LayerPlan plan;
+    const PlanTracks tracks(plan);
+    std::vector<Patch> patches;
+    GapPatches gap(beside, nullptr, plan, tracks, patches, settings);
+    CHECK(gap.add({{5000, -mm}, {5000, mm}}, true));
+    CHECK(patches.size() > 4);
+    for (const Patch& patch : patches) {
+        REQUIRE(patch.kind == TrackKind::support);
+        CHECK(gap.runs_in_object(patch.segment));
+    }
+    CHECK_FALSE(gap.runs_in_object({{0, -20000}, {0, 20000}}));
+    CHECK_FALSE(gap.runs_in_object({{-10000, 0}, {0, 30000}}));
+    CHECK(gap.runs_in_object({{0, 20000}, {0, 60000}}));
+}

@@ -12,6 +12,9 @@ namespace {
 /// By so much more than needed for rounding a patch may stand out of the slice whose edge it follows.
 constexpr Unit within_edge = 5;
 
+/// So far (1 um) the centre line of a patch at the edge may run beside it.
+constexpr Unit beside_edge = 100;
+
 /// The k-th of the points that divide a segment into so many pieces.
 Point division(const Segment& s, std::size_t k, std::size_t pieces) {
     return part_way(s.a, s.b, static_cast<double>(k) / static_cast<double>(pieces));
@@ -113,6 +116,7 @@ Point GapPatches::place_in_object(Point p) const {
     double most = -1;
     for (const Point place :
          {best, edge.shifted(flush / 4), edge.shifted(flush / 2), edge.shifted(3 * flush / 4), edge.shifted(flush)}) {
+        if (place != best && in_air(place)) continue;  // through a thin slice to its other side
         const double room = room_around({place, place});
         if (room > most) best = place, most = room;
         if (room >= static_cast<double>(apart())) break;
@@ -131,18 +135,34 @@ bool GapPatches::add_object(const Segment& hanging, Unit reach, bool at_edge) {
         const Point p = division(hanging, k, pieces);
         if (in_air(p) && compare_distance(p, air_.nearest_edge(p), reach) > 0) return patches_.resize(before), false;
         at.push_back(at_edge ? nearest_of_slice(p) : place_in_object(p));
-        if (k == 0) continue;
-        // Feet on two sides of a notch: the way between them would lie in the air.
-        const Point middle{(at[k - 1].x + at[k].x) / 2, (at[k - 1].y + at[k].y) / 2};
-        const bool apart =
-            in_air(middle) && compare_distance(middle, air_.nearest_edge(middle), settings_.nozzle / 4) > 0;
-        if (apart || !keeps_off_supports({at[k - 1], at[k]})) {
-            patches_.push_back({{at[k - 1], at[k - 1]}, TrackKind::support});
-            patches_.push_back({{at[k], at[k]}, TrackKind::support});
-        } else {
-            patches_.push_back({{at[k - 1], at[k]}, TrackKind::support});
-        }
+        if (k > 0) add_along_slice({at[k - 1], at[k]}, 0);
     }
+    return true;
+}
+
+/// A patch of the object, which follows its edge where the straight way would lead through the air; where it cannot, as
+/// between feet on two sides of a notch, its ends.
+void GapPatches::add_along_slice(const Segment& s, int depth) {
+    if (runs_in_object(s) && keeps_off_supports(s)) {
+        patches_.push_back({s, TrackKind::support});
+        return;
+    }
+    const Point middle = nearest_of_slice({(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2});
+    const double shorter = 0.8 * length(s.b - s.a);
+    if (depth < 4 && length(middle - s.a) < shorter && length(s.b - middle) < shorter && keeps_off_supports(s)) {
+        add_along_slice({s.a, middle}, depth + 1);
+        add_along_slice({middle, s.b}, depth + 1);
+        return;
+    }
+    for (const Point end : {s.a, s.b}) patches_.push_back({{end, end}, TrackKind::support});
+}
+
+bool GapPatches::runs_in_object(const Segment& s) const {
+    const auto pieces = static_cast<std::size_t>(8 * length(s.b - s.a) / static_cast<double>(settings_.nozzle)) + 2;
+    for (std::size_t k = 0; k <= pieces; ++k)
+        if (const Point p = division(s, k, pieces);
+            in_air(p) && compare_distance(p, air_.nearest_edge(p), beside_edge) > 0)
+            return false;
     return true;
 }
 

@@ -26,6 +26,9 @@ public:
     /// May a support's patch lie there: where walls may, and off the object's patches?
     bool may_stand(const Segment& s) const;
 
+    /// Does a centre line of the object's nowhere leave its slice, so that its track stands out by no more than r?
+    bool runs_in_object(const Segment& s) const;
+
     /// Under a stretch that hangs: the object's edge, where it is not printed (but for its corners) and so fails to
     /// hold up what it should; else a support where one may stand. `again`: that has not helped, and the object is
     /// printed at its very edge, though that stands into the gap. Says no when nothing can be done so.
@@ -75,6 +78,7 @@ private:
     Point place_in_object(Point p) const;
     bool is_printed(Point p, Unit beyond) const;
     bool supports_reach_rim(Point p) const;
+    void add_along_slice(const Segment& s, int depth);
     bool add_object(const Segment& hanging, Unit reach, bool at_edge = false);
 
     const LayerPlan& plan_;

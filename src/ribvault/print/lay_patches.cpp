@@ -24,7 +24,8 @@ NearestSegment segments_of(const LayerPlan& plan, std::vector<PlanTracks::Place>
 
 class PatchLayer {
 public:
-    PatchLayer(const PlanTracks& on, LayerPlan& plan, Unit width, const std::function<bool(const Segment&)>& open)
+    PatchLayer(const PlanTracks& on, LayerPlan& plan, Unit width,
+               const std::function<bool(TrackKind, const Segment&)>& open)
         : on_(on), plan_(plan), width_(width), open_(open), dot_(std::numbers::pi / 4 * static_cast<double>(width)) {}
 
     Unit run(const std::vector<Patch>& patches) {
@@ -120,9 +121,7 @@ private:
         return true;
     }
 
-    bool is_open(TrackKind kind, const Segment& way) const {
-        return !open_ || kind != TrackKind::external_support || open_(way);
-    }
+    bool is_open(TrackKind kind, const Segment& way) const { return !open_ || open_(kind, way); }
 
     /// `to`, or on the way there what is just far enough for a step.
     static Point beyond_tiny(Point from, Point to) {
@@ -188,7 +187,7 @@ private:
     const PlanTracks& on_;
     LayerPlan& plan_;
     const Unit width_;
-    const std::function<bool(const Segment&)>& open_;
+    const std::function<bool(TrackKind, const Segment&)>& open_;
     const double dot_;  ///< length of track that takes as much material as a dot
     double added_ = 0;
     std::set<std::pair<std::size_t, Leads>> prolonged_;
@@ -201,7 +200,7 @@ private:
 PlanTracks::PlanTracks(const LayerPlan& plan) : segments_(segments_of(plan, places_)) {}
 
 Unit lay_patches(const std::vector<Patch>& patches, const PlanTracks& on, LayerPlan& plan, Unit width,
-                 const std::function<bool(const Segment&)>& open) {
+                 const std::function<bool(TrackKind, const Segment&)>& open) {
     return PatchLayer(on, plan, width, open).run(patches);
 }
 

@@ -42,9 +42,9 @@ private:
 /// * beside another track: a track of its own from there to the dot (ToolPath::on_track, unless it leaves a narrower
 ///   strip, where its rounded end needs filament too).
 /// Where what leads to an earlier dot is nearer, it goes on to this one too.
-/// Where the way is longer than a dot is worth, or one of external supports leads where `open` says they must not, it
-/// stays a dot. Returns the length of track that the patches add, dots as none. Steps are at least shortest_step long.
+/// Where the way is longer than a dot is worth, or leads where `open` says that tracks of its kind must not, it stays a
+/// dot. Returns the length of track that the patches add, dots as none. Steps are at least shortest_step long.
 Unit lay_patches(const std::vector<Patch>& patches, const PlanTracks& on, LayerPlan& plan, Unit width,
-                 const std::function<bool(const Segment&)>& open = nullptr);
+                 const std::function<bool(TrackKind, const Segment&)>& open = nullptr);
 
 }  // namespace ribvault

@@ -40,8 +40,10 @@ PrintPatches::PrintPatches(LayerPlan plan, const Cavity* beside, const Region* w
 }
 
 Unit PrintPatches::lay(LayerPlan& plan) const {
-    return lay_patches(patches_, tracks_, plan, settings_.nozzle,
-                       [&](const Segment& way) { return may_stand_outside(way); });
+    return lay_patches(patches_, tracks_, plan, settings_.nozzle, [&](TrackKind kind, const Segment& way) {
+        if (kind == TrackKind::external_support) return may_stand_outside(way);
+        return !gap_patches_ || gap_patches_->runs_in_object(way);
+    });
 }
 
 void PrintPatches::add_to_object(const std::vector<HangingTrack>& open) {
