@@ -8,6 +8,7 @@
 #include "random_cavities.hpp"
 #include "ribvault/slice/outside.hpp"
 #include "ribvault/vault/erode_supports.hpp"
+#include "ribvault/vault/growing_supports.hpp"
 #include "ribvault/vault/next_layer.hpp"
 #include "ribvault/vault/shrink_supports.hpp"
 #include "within.hpp"
@@ -179,6 +180,68 @@ TEST_CASE(
         }
         CHECK(length(above.forest) <= static_cast<double>(trees) * 400000 + 4);
     }
+}
+
+TEST_CASE("a free tree that its region cuts to less than half a pillar joins another one or grows arms anew") {
+    Settings settings;
+    settings.support = Support::external;
+    settings.support_gap = 20000;
+    Cavity outside = beside(50, {rectangle(-1000000, -1000000, 0, 1000000)}, settings);
+    outside.walls = Region{rectangle(50000, -3000000, 3000000, 3000000)};
+    SupportForest stub = chain({{60000, 0}, {61000, 0}});
+    stub[0].root = stub[0].free = true;
+
+    // Alone: arms along and away from the object, down to the bed as much track as a pillar.
+    SupportForest above = stub;
+    SupportForest mended = next_layer(above, outside, {}, settings).forest;
+    CHECK(forest_fault(mended) == "");
+    CHECK(component_count(mended) == 1);
+    CHECK(length(mended) > 0.5 * 400000);
+    CHECK(length(mended) <= 400000);
+    for (const Segment& s : centre_lines(mended))
+        for (const Point p : {s.a, s.b}) CHECK(p.x > 50000);
+
+    // 2 mm beside a longer one: a wall leads there.
+    above = stub;
+    for (const Point p : {Point{60000, 200000}, Point{60000, 900000}})
+        add_vertex(SupportVertex{.at = p, .root = p.y == 200000, .free = p.y == 200000}, above);
+    add_edge(2, 3, above);
+    mended = next_layer(above, outside, {}, settings).forest;
+    CHECK(forest_fault(mended) == "");
+    CHECK(component_count(mended) == 1);
+
+    // At one and the same place: one of them is enough.
+    above = chain({{60000, 0}, {60250, 0}});
+    above[0].root = above[0].free = true;
+    const auto second = add_vertex(SupportVertex{.at = {60000, 300}, .root = true, .free = true}, above);
+    add_edge(second, add_vertex(SupportVertex{.at = {60250, 300}}, above), above);
+    mended = next_layer(above, outside, {}, settings).forest;
+    CHECK(component_count(mended) == 1);
+    CHECK(length(mended) <= 400000);
+}
+
+TEST_CASE("what rounding put beside the region grows on its side of the object") {
+    Settings settings;
+    settings.support = Support::external;
+    settings.support_gap = 20000;
+    Cavity outside = beside(50, {rectangle(-10000, -3000000, 10000, 3000000)}, settings);
+    outside.walls =
+        Region{rectangle(50000, -3000000, 3000000, 3000000), rectangle(-3000000, -3000000, -50000, 3000000)};
+    CavityBoundary boundary = prepare_boundary(outside);
+    boundary.free_trees = true;
+    SupportForest forest = chain({{49999, 0}, {50000, 1000}});
+    forest[0].root = forest[0].free = true;
+    // The nearest wall is behind the object, and no edge between: both ends are beside the region by a unit.
+    for (const Point p : {Point{-49999, 0}, Point{-49999, 900000}})
+        add_vertex(SupportVertex{.at = p, .root = p.y == 0, .free = p.y == 0}, forest);
+    add_edge(2, 3, forest);
+    GrowingSupports supports(forest, boundary.location.box(), boundary, settings);
+    supports.mend_free_tree(0);
+    forest = supports.take();
+    CHECK(forest_fault(forest) == "");
+    CHECK(component_count(forest) == 2);
+    CHECK(length(forest) > 900000 + 200000);
+    for (const Segment& s : centre_lines(forest)) CHECK((s.a.x > 0) == (s.b.x > 0));
 }
 
 TEST_CASE("a root that the object leaves behind without another in reach stands free") {
