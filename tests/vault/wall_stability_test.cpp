@@ -45,6 +45,35 @@ TEST_CASE("a wall that is high at the root and low at the tip sways where both a
 
 TEST_CASE("a forest without walls is not slender") { CHECK(most_slender({}, {}).ratio == 0); }
 
+TEST_CASE("a tree that stands free sways as a whole, over where it is narrowest") {
+    const auto cross = [](Unit arm, std::int32_t standing) {
+        SupportForest forest;
+        const auto middle =
+            add_vertex({.at = {0, 0}, .root = true, .free = true, .outside = true, .standing = standing}, forest);
+        for (const Point end : {Point{arm, 0}, Point{0, arm}, Point{-arm, 0}, Point{0, -arm}})
+            add_edge(middle, add_vertex({.at = end, .outside = true}, forest), forest);
+        return forest;
+    };
+    // 20 mm high, a square on its tip: 1.414 mm and a track across.
+    const SlenderPlace worst = most_slender(cross(mm, 99), {});
+    CHECK(worst.ratio == Approx(20 / (std::sqrt(2.0) + 0.4)));
+    CHECK(worst.standing == Approx(20.0 * mm));
+    CHECK(worst.to_root == 0);
+    CHECK(worst.at == Point{0, 0});
+    SupportForest line = wall(false, 99, 99);
+    line[0].free = true;
+    CHECK(most_slender(line, {}).ratio == Approx(20 / 0.4));
+    SupportForest dot;
+    add_vertex({.at = {0, 0}, .root = true, .free = true, .outside = true, .standing = 99}, dot);
+    CHECK(most_slender(dot, {}).ratio == Approx(20 / 0.4));
+}
+
+TEST_CASE("walls outside are as slender as walls in cavities") {
+    SupportForest forest = wall(false, 99, 99);
+    for (auto [v, end] = vertices(forest); v != end; ++v) forest[*v].outside = true;
+    CHECK(most_slender(forest, {}).ratio == Approx(10 / 0.4));
+}
+
 namespace {
 int marked(SupportForest& forest, const Settings& settings) {
     mark_wide_trees(forest, settings);

@@ -108,7 +108,7 @@ void centre_free_trees(SupportForest& forest) {
                         at = part_way(a, b, middle.along / length(b - a));
             if (at == b) centre = middle.next;
             else if (at != a) {
-                centre = add_vertex(SupportVertex{at}, forest);
+                centre = add_vertex(vertex_between(forest[middle.vertex], forest[middle.next], at), forest);
                 remove_edge(middle.vertex, middle.next, forest);
                 add_edge(middle.vertex, centre, forest);
                 add_edge(centre, middle.next, forest);

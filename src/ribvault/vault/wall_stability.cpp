@@ -8,6 +8,9 @@
 #include <queue>
 #include <vector>
 
+#include "ribvault/exact/predicates.hpp"
+#include "ribvault/vault/tree_walk.hpp"
+
 namespace ribvault {
 namespace {
 
@@ -58,6 +61,46 @@ private:
     Point a_, b_;
     double l_, root_a_, root_b_, height_a_, height_b_, width_;
 };
+
+/// How wide points lie across the direction in which they are narrowest.
+double narrowest_extent(std::vector<Point> points) {
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    if (points.size() < 3) return 0;
+    std::vector<Point> hull;
+    for (int side = 0; side < 2; ++side) {
+        const std::size_t first = hull.size();
+        for (const Point p : points) {
+            while (hull.size() >= first + 2 && orientation(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+            hull.push_back(p);
+        }
+        hull.pop_back();
+        std::reverse(points.begin(), points.end());
+    }
+    // One side of the narrowest strip lies along an edge of the hull.
+    double narrowest = HUGE_VAL;
+    for (std::size_t k = 0; k < hull.size(); ++k) {
+        const Point a = hull[k], b = hull[(k + 1) % hull.size()];
+        std::int64_t farthest = 0;
+        for (const Point p : hull) farthest = std::max(farthest, cross(a, b, p));
+        narrowest = std::min(narrowest, static_cast<double>(farthest) / length(b - a));
+    }
+    return narrowest;
+}
+
+/// A tree that stands free, as a column.
+SlenderPlace whole_tree(std::size_t root, const SupportForest& forest, const Settings& settings) {
+    std::vector<Point> points;
+    SlenderPlace place;
+    place.at = forest[root].at;
+    for (const std::size_t v : walk_from(root, forest).order) {
+        points.push_back(forest[v].at);
+        place.standing = std::max(place.standing, standing_height(forest[v], settings));
+    }
+    const auto track = static_cast<double>(wall_width(forest[root], settings));
+    place.ratio = place.standing / (narrowest_extent(std::move(points)) + track);
+    return place;
+}
 
 /// For every vertex the way along its tree to the nearest root, in lattice units; infinite in a tree without roots.
 std::vector<double> distances_to_roots(const SupportForest& forest) {
@@ -133,10 +176,12 @@ SlenderPlace most_slender(const SupportForest& forest, const Settings& settings)
     SlenderPlace worst;
     for (auto [e, end] = edges(forest); e != end; ++e) {
         const std::size_t a = source(*e, forest), b = target(*e, forest);
-        if (forest[a].outside) continue;
         const SlenderPlace place = WallProfile(forest[a], forest[b], to_root[a], to_root[b], settings).worst();
         if (place.ratio > worst.ratio) worst = place;
     }
+    for (auto [v, end] = vertices(forest); v != end; ++v)
+        if (forest[*v].free)
+            if (const SlenderPlace tree = whole_tree(*v, forest, settings); tree.ratio > worst.ratio) worst = tree;
     return worst;
 }
 

@@ -14,14 +14,15 @@ inline Unit wall_width(const SupportVertex& v, const Settings& settings) {
 }
 
 /// Where a wall sways most easily. A place of a wall is held from below by what the wall stands on and from the side by
-/// the nearest root; the nearer of the two decides.
+/// the nearest root; the nearer of the two decides. The root of a tree that stands free is where its walls hold each
+/// other, but nothing holds the tree: it sways as a whole too, over where it is narrowest.
 struct SlenderPlace {
-    double ratio = 0;     ///< free height over width: min(standing, to root) / width
+    double ratio = 0;     ///< free height over width: min(standing, to root) / width; of a whole tree standing / extent
     double standing = 0;  ///< lattice units: height of the wall from the bottom of this layer up
-    double to_root = 0;   ///< lattice units: along the wall to the nearest root
-    Point at;
+    double to_root = 0;   ///< lattice units: along the wall to the nearest root; 0 of a whole tree that stands free
+    Point at;             ///< of a whole tree its root
 };
-/// The place of the greatest ratio among internal supports; all zero without walls. Exact up to double arithmetic.
+/// The place of the greatest ratio, in cavities and outside; all zero without walls. Exact up to double arithmetic.
 SlenderPlace most_slender(const SupportForest& forest, const Settings& settings);
 
 /// Marks the trees (SupportVertex::wide; their walls have no gaps at junctions, SupportEdge::to_junction) that reach
