@@ -395,6 +395,9 @@ TEST_CASE(
     CHECK(thin.verdict.layers_with_patches_in_gap.size() == 20);  // all of its height
     CHECK(thin.layers[10].patch_in_gap);
     CHECK(wide.verdict.layers_with_patches_in_gap.empty());
+    Settings on_bed = with(Support::external, 0);
+    on_bed.bed_only = true;
+    CHECK(run(table_on_blade(0.1), on_bed).verdict.layers_with_patches_in_gap.empty());  // there is no gap
 }
 
 TEST_CASE("random blocks on supports from the bed, and through gaps of layers, are proved or say what is not") {

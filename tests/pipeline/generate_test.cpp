@@ -199,7 +199,9 @@ TEST_CASE("the summary names the first five layers that are refuted, what may he
         INFO(k);
         CHECK((text.find("  layer " + std::to_string(k) + ": no reason\n") != std::string::npos) == (k < 6 && k != 3));
     }
-    CHECK(text.find("what may help") != std::string::npos);
+    CHECK(text.find("what may help: another --seed") != std::string::npos);
+    report.settings.bed_only = true;
+    CHECK(summary(report, job).find("what may help: no --bed-only; another --seed") != std::string::npos);
     CHECK(text.ends_with("report    " + job.report->string() + "\n"));
     CHECK(verdict_text(report, job).find("NOT PROVED") != std::string::npos);
 }

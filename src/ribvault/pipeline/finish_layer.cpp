@@ -47,9 +47,10 @@ void LayerFinisher::check_gap(const SweptLayer& layer, LayerReport& report) cons
     std::optional<Segment> near = find_too_near(*layer.material.slice->exact, outside, s.support_gap + s.nozzle / 2);
     for (const auto& above : layer.material.slices_above)
         if (!near) near = find_too_near(*above->exact, outside, s.support_gap + s.nozzle / 2);
-    report.patch_in_gap = std::any_of(layer.patches.begin(), layer.patches.end(), [&](const auto& patches) {
-        return find_too_near(*patches, outside, s.support_gap + s.nozzle).has_value();
-    });
+    report.patch_in_gap =
+        s.support_gap > 0 && std::any_of(layer.patches.begin(), layer.patches.end(), [&](const auto& patches) {
+            return find_too_near(*patches, outside, s.support_gap + s.nozzle).has_value();
+        });
     if (!near) return;
     report.verdict.supported = false;
     report.verdict.malformed = "the external support at (" + std::to_string(to_mm(near->a.x)) + ", " +

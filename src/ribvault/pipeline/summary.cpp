@@ -25,7 +25,9 @@ void append_advice(std::string& text, const RunReport& r) {
     if (std::any_of(r.layers.begin(), r.layers.end(),
                     [](const LayerReport& layer) { return layer.verdict.malformed.starts_with("layer "); }))
         text += "the mesh repaired where parts touch or cross, or moved a little (--rotate); ";
-    if (s.stands_off()) text += "a smaller --support-gap, fewer --support-gap-layers, or no --bed-only; ";
+    if (s.support_gap > 0) text += "a smaller --support-gap; ";
+    if (s.support_gap_layers > 0) text += "fewer --support-gap-layers; ";
+    if (s.bed_only) text += "no --bed-only; ";
     if (s.gaps == Gaps::paper) text += "--gaps proved; ";
     text += "another --seed, thinner layers, or the model turned (docs/printing.md, When something is not proved)\n";
 }
@@ -144,10 +146,13 @@ std::string summary(const RunReport& r, const Job& job) {
                      many(r.totals.retractions, "retraction").c_str());
     if (r.totals.slenderness > 0) {
         const LayerReport& l = r.layers[static_cast<std::size_t>(r.totals.slenderest_layer)];
-        append_formatted(
-            text,
-            "walls     most slender on layer %d at (%.1f, %.1f) mm: %.1f mm high, %.1f mm from a root, ratio %.0f\n",
-            l.layer, l.slender_at[0], l.slender_at[1], l.slender_standing_mm, l.slender_to_root_mm, l.slenderness);
+        append_formatted(text, "walls     most slender on layer %d at (%.1f, %.1f) mm: %.1f mm high, ", l.layer,
+                         l.slender_at[0], l.slender_at[1], l.slender_standing_mm);
+        if (l.slender_to_root_mm > 0)
+            append_formatted(text, "%.1f mm from a root", l.slender_to_root_mm);
+        else
+            text += "a tree that stands free";
+        append_formatted(text, ", ratio %.0f\n", l.slenderness);
     }
     if (r.totals.thin_places > 0)
         append_formatted(text,
