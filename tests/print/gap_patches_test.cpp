@@ -122,3 +122,23 @@ TEST_CASE("a patch of the object keeps its centre line in the slice, around a no
     CHECK_FALSE(gap.runs_in_object({{-10000, 0}, {0, 30000}}));
     CHECK(gap.runs_in_object({{0, 20000}, {0, 60000}}));
 }
+
+TEST_CASE("on the bed alone walls keep their gaps at junctions but where something hangs without") {
+    const Settings settings = on_bed_alone();
+    const Cavity beside = right_of_object(0);
+    SupportForest walls;
+    const auto add = [&](Point p, bool root) {
+        return add_vertex(SupportVertex{.at = p, .root = root, .free = root, .outside = true}, walls);
+    };
+    const auto root = add({2 * mm, 0}, true), joint = add({4 * mm, 0}, false);
+    for (const Point end : {Point{7 * mm, 0}, Point{4 * mm, 6 * mm}}) add_edge(joint, add(end, false), walls);
+    add_edge(root, joint, walls);
+    const PrintedLayer none = print_of({support({{3 * mm, 0}, {4 * mm, 0}})});
+    HeldLayer held = hold_print({}, walls, &none, settings, &beside);
+    CHECK(held.plan.gaps == 1);
+    CHECK(held.closed_gaps == 0);
+    const PrintedLayer over_gap = print_of({support({{4 * mm + 20000, -20000}, {6 * mm, -20000}})});
+    held = hold_print({}, walls, &over_gap, settings, &beside);
+    CHECK(held.plan.gaps == 0);
+    for (const PrintPart& part : held.parts) CHECK(part.judgement.verdict().supported);
+}

@@ -41,10 +41,8 @@ public:
           settings_(settings),
           beside_(beside),
           walls_below_gap_(walls_below_gap) {
-        // What stands on nothing but supports is printed as it is proved.
-        for (auto [e, end] = edges(forest_); e != end; ++e)
-            if (settings.gaps == Gaps::none || (settings.bed_only && forest_[source(*e, forest_)].outside))
-                forest_[*e].to_junction = true;
+        if (settings.gaps == Gaps::none)
+            for (auto [e, end] = edges(forest_); e != end; ++e) forest_[*e].to_junction = true;
     }
 
     HeldLayer run() {
@@ -152,7 +150,8 @@ private:
     /// What of the layer above inside the outline is not held up.
     std::vector<HangingTrack> open() const {
         std::vector<HangingTrack> all;
-        for (const PrintPart& part : held_.parts) append_open(part.judgement, {nullptr, {}, part.over_gap, part.inside, part.on_supports}, all);
+        for (const PrintPart& part : held_.parts)
+            append_open(part.judgement, {nullptr, {}, part.over_gap, part.inside, part.on_supports}, all);
         // Supports that must not stand on the object are mended where nothing but supports counts.
         if (settings_.bed_only)
             std::erase_if(all, [](const HangingTrack& h) { return !h.on_supports && is_external_support(*h.track); });
