@@ -195,25 +195,24 @@ std::string check_inside(std::span<const Vertex> vertices, std::span<const Edge>
     for (const auto& boundary : {cavity, slice})
         for (const Edge& e : boundary)
             low_x = std::min(low_x, vertices[e.a].cx), low_y = std::min(low_y, vertices[e.a].cy);
-    const auto winding = [&](std::span<const Edge> boundary, int vertex) {
+    // The winding number of a boundary at each of the vertices at which the chains of another start: that of a point
+    // far away, where it is 0, and what is crossed on the way.
+    const auto find_start = [&](std::span<const Edge> chains, std::span<const Edge> boundary, const auto& wrong) {
         std::vector<int> all(boundary.size());
         std::iota(all.begin(), all.end(), 0);
         double step = 1;
         do step *= 1.0378;
         while (!off_lines(problem, boundary, all, low_x - step, low_y - 0.7231 * step));
-        Located v = at_vertex(problem, vertex);
-        return crossings(boundary, all, low_x - step, low_y - 0.7231 * step, v);
+        for (const int i : chain_starts(chains)) {
+            Located v = at_vertex(problem, chains[i].a);
+            if (wrong(crossings(boundary, all, low_x - step, low_y - 0.7231 * step, v))) return &vertices[chains[i].a];
+        }
+        return static_cast<const Vertex*>(nullptr);
     };
-    for (const int i : chain_starts(cavity))
-        if (winding(slice, cavity[i].a) == 0) {
-            const Vertex& a = vertices[cavity[i].a];
-            return "the cavity leaves the outline at " + place(a.cx, a.cy);
-        }
-    for (const int i : chain_starts(slice))
-        if (winding(cavity, slice[i].a) != 0) {
-            const Vertex& a = vertices[slice[i].a];
-            return "the cavity contains the outline's hole at " + place(a.cx, a.cy);
-        }
+    if (const Vertex* v = find_start(cavity, slice, [](int winding) { return winding == 0; }))
+        return "the cavity leaves the outline at " + place(v->cx, v->cy);
+    if (const Vertex* v = find_start(slice, cavity, [](int winding) { return winding != 0; }))
+        return "the cavity contains the outline's hole at " + place(v->cx, v->cy);
     return {};
 }
 
