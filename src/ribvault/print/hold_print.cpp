@@ -179,14 +179,12 @@ private:
     int close_gaps(const std::vector<HangingTrack>& open) {
         // What hangs lies within half a width of its stretch. Walls whose centre line is farther than ρ from that could
         // hold its rim only; closing their gaps too costs more than the patches that it saves.
-        struct Place {
-            Segment segment;
-            double reach;
-        };
-        std::vector<Place> places;
-        for (const HangingTrack& hanging : open) {
-            places.push_back({hanging.place(), reach_under(hanging)});
-        }
+        std::vector<Segment> stretches;
+        std::vector<double> reach;
+        for (const HangingTrack& hanging : open)
+            stretches.push_back(hanging.place()), reach.push_back(reach_under(hanging));
+        const Unit farthest = static_cast<Unit>(std::ceil(*std::max_element(reach.begin(), reach.end())));
+        const NearestSegment places(std::move(stretches));
         int closed = 0;
         for (auto [e, end] = edges(forest_); e != end; ++e) {
             if (forest_[*e].to_junction) continue;
@@ -197,10 +195,10 @@ private:
                 const Point a = forest_[from].at, b = forest_[to].at;
                 const double l = length(b - a), width = static_cast<double>(settings_.nozzle);
                 const Segment gap{a, part_way(a, b, l > width ? width / l : 1)};
-                if (!std::any_of(places.begin(), places.end(), [&](const Place& p) {
-                        return boxes_near(gap, p.segment, p.reach) && distance(gap, p.segment) <= p.reach;
-                    }))
-                    continue;
+                bool near = false;
+                places.visit(bounding_box(gap, farthest),
+                             [&](std::uint32_t k) { near = near || distance(gap, places.segments()[k]) <= reach[k]; });
+                if (!near) continue;
                 forest_[*e].to_junction = true;
                 ++closed;
                 break;
