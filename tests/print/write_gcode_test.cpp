@@ -397,6 +397,30 @@ TEST_CASE("start G-code that heats itself leaves the supports' tool to the heade
     }
 }
 
+TEST_CASE("what start and end G-code only say heats nothing and turns nothing off") {
+    PrinterSettings printer;
+    for (const char* said : {"; printed at {nozzle_temperature} C, bed {bed_temperature}; M104 M140\nG28\n",
+                             "G28 ; M109 S{nozzle_temperature} and M190 S{bed_temperature} come before\n",
+                             "M117 {nozzle_temperature} C, bed {bed_temperature} C\n", "  M118 M104 M140\n",
+                             "M291 P\"M109 to {nozzle_temperature}, M190 to {bed_temperature}\"\n",
+                             "G28 ; {{nozzle_temperature}}\nSET A={{nozzle_temperature}} B={{bed_temperature}}\n"}) {
+        printer.start_gcode = said;
+        const std::string header = gcode_header({}, {}, printer, {});
+        INFO(said);
+        CHECK(header.find("\nM109 S205 ; wait") != std::string::npos);
+        CHECK(header.find("\nM190 S60 ; wait") != std::string::npos);
+        printer.end_gcode = "M117 M104 M84 M140\n; M104 M84 M140\n";
+        const std::string footer = gcode_footer({}, printer, {});
+        for (const char* off : {"\nM104 S0", "\nM140 S0", "\nM84 ;"}) CHECK(footer.find(off) != std::string::npos);
+    }
+    for (const char* heats : {"START_PRINT T={nozzle_temperature} BED={bed_temperature} ; go\n",
+                              "M140 S{bed_temperature}\nM104 S{nozzle_temperature}\n"}) {
+        printer.start_gcode = heats;
+        const std::string header = gcode_header({}, {}, printer, {});
+        CHECK(header.find("; wait") == std::string::npos);
+    }
+}
+
 TEST_CASE("printer settings that cannot be are named") {
     const auto refused = [](auto change, const char* name) {
         PrinterSettings printer;

@@ -1,8 +1,11 @@
 #include "ribvault/print/gcode_header.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <sstream>
 #include <utility>
 
 #include "ribvault/error.hpp"
@@ -12,18 +15,36 @@
 namespace ribvault {
 namespace {
 
+/// What of G-code a printer acts upon: without comments, and without lines whose text is only shown. `{{` and `}}`
+/// stand for braces and are left out.
+std::string acted_upon(const std::string& gcode) {
+    static constexpr const char* shown[] = {"M0", "M1", "M117", "M118", "M291", "RESPOND", "echo"};
+    std::string acts;
+    std::istringstream lines(gcode);
+    for (std::string line; std::getline(lines, line);) {
+        line.resize(std::min(line.find(';'), line.size()));
+        std::string command;
+        std::istringstream(line) >> command;
+        if (std::find(std::begin(shown), std::end(shown), command) != std::end(shown)) continue;
+        for (std::size_t k = 0; k < line.size(); ++k)
+            if ((line[k] == '{' || line[k] == '}') && line[k + 1] == line[k])
+                ++k;
+            else
+                acts += line[k];
+        acts += '\n';
+    }
+    return acts;
+}
+
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// Whether a command or tool stands in G-code as a word of its own, not in a comment.
-bool names(const std::string& gcode, const std::string& word) {
+/// Whether a command or tool stands in what is acted upon as a word of its own.
+bool names(const std::string& acts, const std::string& word) {
     const auto is_letter = [&](std::size_t k) {
-        return k < gcode.size() && std::isalnum(static_cast<unsigned char>(gcode[k])) != 0;
+        return k < acts.size() && std::isalnum(static_cast<unsigned char>(acts[k])) != 0;
     };
-    for (std::size_t at = gcode.find(word); at != std::string::npos; at = gcode.find(word, at + 1)) {
-        if ((at > 0 && is_letter(at - 1)) || is_letter(at + word.size())) continue;
-        const std::size_t line = at == 0 ? 0 : gcode.rfind('\n', at - 1) + 1;  // npos + 1 is the start
-        if (gcode.find(';', line) > at) return true;
-    }
+    for (std::size_t at = acts.find(word); at != std::string::npos; at = acts.find(word, at + 1))
+        if ((at == 0 || !is_letter(at - 1)) && !is_letter(at + word.size())) return true;
     return false;
 }
 
@@ -189,7 +210,7 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
     if (facts.filament_mm > 0) comment("filament used [mm]", decimal_text(std::round(facts.filament_mm * 100) / 100));
     if (facts.seconds > 0) comment("estimated printing time (normal mode)", duration(facts.seconds));
 
-    const std::string& start = printer.start_gcode;
+    const std::string start = acted_upon(printer.start_gcode);
     const bool heats_bed = !names(start, "M140") && !names(start, "M190") && !contains(start, "{bed_temperature}") &&
                            printer.bed_temperature > 0;
     const bool heats_nozzle =
@@ -210,7 +231,7 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
     if (heats_nozzle) text += "M109 S" + nozzle + " ; wait for the nozzle\n";
     if (heats_tool && heats_nozzle) text += wait_for_tool;
     if (printer.write_limits) text += limits_text(printer);
-    text += fill_placeholders(start, "start_gcode", settings, printer, facts);
+    text += fill_placeholders(printer.start_gcode, "start_gcode", settings, printer, facts);
     if (heats_tool && !heats_nozzle) text += heat_tool + wait_for_tool;
     text += "G21 ; millimetres\nG90 ; absolute coordinates\nM83 ; relative extrusion\n";
     if (printer.retraction == 0) return text;
@@ -225,13 +246,13 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
 std::string gcode_footer(const Settings& settings, const PrinterSettings& printer, const PrintFacts& facts) {
     std::string text = "; end of print\n";
     if (printer.fan_percent > 0) text += "M107 ; fan off\n";
-    const std::string& end = printer.end_gcode;
+    const std::string end = acted_upon(printer.end_gcode);
     const std::string tool = "T" + std::to_string(printer.support_extruder);
     if (!names(end, "M104")) text += "M104 S0 ; nozzle off\n";
     if (printer.support_extruder > 0 && settings.outside() && !names(end, tool))
         text += "M104 " + tool + " S0 ; nozzle of the supports off\n";
     if (!names(end, "M140") && printer.bed_temperature > 0) text += "M140 S0 ; bed off\n";
-    text += fill_placeholders(end, "end_gcode", settings, printer, facts);
+    text += fill_placeholders(printer.end_gcode, "end_gcode", settings, printer, facts);
     if (!names(end, "M84")) text += "M84 ; motors off\n";
     return text;
 }
