@@ -8,6 +8,7 @@
 #include "cli/progress.hpp"
 #include "ribvault/error.hpp"
 #include "ribvault/pipeline/generate.hpp"
+#include "ribvault/print/ini.hpp"
 
 namespace ribvault::cli {
 namespace {
@@ -134,6 +135,15 @@ void add_geometry(CLI::App* command, Written& w) {
     add_length(supports, "--slack", s.slack, "what the generator keeps clear of the limit (default 0.001)");
 }
 
+std::vector<double> numbers_of(const std::string& option, const std::string& text, std::size_t count,
+                               const std::string& example) {
+    try {
+        return numbers_in(text, count, example);
+    } catch (const Error& error) {
+        throw Error(error.kind(), option + ": " + error.what());
+    }
+}
+
 void add_placement(CLI::App* command, Written& w) {
     const auto group = command->add_option_group("Placement");
     const auto scale = group->add_option_function<std::string>(
@@ -147,10 +157,18 @@ void add_placement(CLI::App* command, Written& w) {
     group->add_option("--up", w.up, "the model's axis that points up")->check(CLI::IsMember({"x", "y", "z"}));
     group->add_option_function<std::string>("--bed", [&w](const std::string& text) {
         PrinterSettings& p = w.job.printer;
-        char rest = 0;
-        if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.bed_x, &p.bed_y, &p.bed_z, &rest) != 3)
-            throw Error(ErrorKind::usage, "--bed: '" + text + "' is not a size; write for example --bed 250,210,200");
+        const std::vector<double> size = numbers_of("--bed", text, 3, "--bed 250,210,200");
+        p.bed_x = size[0], p.bed_y = size[1], p.bed_z = size[2];
     }, "size of the printer (default: the profile's; without one 250,250,250)")->type_name("X,Y,Z");
+    group
+        ->add_option_function<std::string>(
+            "--bed-corner",
+            [&w](const std::string& text) {
+                const std::vector<double> corner = numbers_of("--bed-corner", text, 2, "--bed-corner 3,-5");
+                w.job.printer.bed_corner = {corner[0], corner[1]}, w.job.printer.origin_at_centre = false;
+            },
+            "where the bed's front left corner is (default: the profile's; without one 0,0)")
+        ->type_name("X,Y");
 }
 
 void set_rotation(Written& w) {
@@ -212,7 +230,7 @@ void complete(Written& w) {
     w.job.placement.bed_y = w.job.printer.bed_y;
     w.job.placement.bed_z = w.job.printer.bed_z;
     w.job.placement.round_bed = w.job.printer.round_bed;
-    w.job.placement.origin_at_centre = w.job.printer.origin_at_centre;
+    w.job.placement.bed_corner = w.job.printer.corner_of_bed();
     w.job.model = w.model;
     const auto path = [](const std::string& text) {
         return text.empty() ? std::nullopt : std::optional<std::filesystem::path>(text);

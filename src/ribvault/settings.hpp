@@ -142,7 +142,9 @@ struct PrinterSettings {
     double surplus_clearance = 1.0;   ///< mm: no surplus when a support path starts nearer to a perimeter
     double bed_x = 250, bed_y = 250, bed_z = 250;  ///< mm
     bool round_bed = false;           ///< a disc of diameter bed_x
-    /// X = y = 0 is the middle of the bed, as on most deltas, not its front left corner.
+    /// Mm: x and y of the front left corner of the bed, or of the square around it.
+    std::array<double, 2> bed_corner{};
+    /// X = y = 0 is the middle of the bed, as on most deltas; bed_corner does not count then.
     bool origin_at_centre = false;
     MotionLimits limits;              ///< for the time estimate, and written into the file when `write_limits`
     bool write_limits = false;
@@ -150,6 +152,10 @@ struct PrinterSettings {
     std::string start_gcode = "G28 ; home\n";
     std::string end_gcode = "G91\nG0 Z5 F600 ; off the print\nG90\n";
     std::string thumbnails = "220x124";  ///< sizes of pictures in the file, W x H, separated by commas; empty: none
+
+    std::array<double, 2> corner_of_bed() const {
+        return origin_at_centre ? std::array<double, 2>{-bed_x / 2, -bed_y / 2} : bed_corner;
+    }
 };
 
 }  // namespace ribvault

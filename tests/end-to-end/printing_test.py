@@ -71,7 +71,7 @@ class Printing(unittest.TestCase):
         for name in ("ultimaker2", "ultimaker3", "prima-p120", "cr-10", "microdelta"):
             text, report = self.gcode("--printer", name)
             xs = [float(x) for x in re.findall(r"^G1 X(-?[0-9.]+)", text, re.M)]
-            middle = 0 if report["printer"]["origin_at_centre"] else report["printer"]["bed_mm"][0] / 2
+            middle = report["printer"]["bed_corner_mm"][0] + report["printer"]["bed_mm"][0] / 2
             self.assertAlmostEqual((min(xs) + max(xs)) / 2, middle, delta=0.01)
 
     def test_bad_profiles_are_refused_with_key_and_line(self):
@@ -134,6 +134,13 @@ class Printing(unittest.TestCase):
         settings = json.loads((self.folder / "a.json").read_text())["settings"]
         self.assertEqual(settings["layer_height_mm"], 0.3)
         self.assertEqual(settings["perimeters"], 1)
+        for corner, far in ((3, 33), (-40, -10)):
+            (self.folder / "prusa.ini").write_text("bed_shape = {0}x{0},{1}x{0},{1}x{1},{0}x{1}\n".format(corner, far))
+            self.assertEqual(self.run_program("--import", "prusa.ini").returncode, 0)
+            moves = re.findall(r"^G1 X(-?[0-9.]+) Y(-?[0-9.]+)", (self.folder / "a.gcode").read_text(), re.M)
+            for places in zip(*moves):
+                self.assertAlmostEqual((min(map(float, places)) + max(map(float, places))) / 2, (corner + far) / 2, delta=0.01)
+            self.assertEqual(self.run_program("--import", "prusa.ini", "--brim", "6").returncode, 5)
         (self.folder / "prusa.ini").write_text("perimeters = 0\nthumbnails = big\n")
         done = self.run_program("--import", "prusa.ini", "--thumbnails", "none")
         self.assertEqual(done.returncode, 2)

@@ -58,12 +58,13 @@ TEST_CASE("placed meshes stand on the bed exactly, in its middle, whatever the t
             options.scale = Rational(5, 3);
             options.rotate_degrees = {Rational(degrees), Rational(90), Rational(-degrees)};
             options.bed_x = 210.1;
+            options.bed_corner = {3.3, -125};
             const Placement placement = place(mesh, options);
             CHECK(placement.scale == Rational(5, 3));
             const Bounds b = exact_bounds(mesh, placement);
             CHECK(b.lo[2] == 0);
-            CHECK(b.lo[0] + b.hi[0] == Rational(2101, 10));
-            CHECK(b.lo[1] + b.hi[1] == 250);
+            CHECK(b.lo[0] + b.hi[0] == Rational(2167, 10));
+            CHECK(b.lo[1] + b.hi[1] == 0);
         }
 }
 

@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
 
 #include "ribvault/error.hpp"
 #include "ribvault/print/gcode_header.hpp"
@@ -26,7 +30,7 @@ std::string refusal(const std::string& text) {
 TEST_CASE("a profile says what it says and leaves the rest") {
     const PrinterSettings p = read_profile(
         "# my printer\n[printer]\nname = Mine\nflavour = klipper\n" + temperatures +
-            "bed = 120, 110, 100\nretraction = 0.8\nmax_speed = 1,2,3,4\nround_bed = yes\n"
+            "bed = 110, 110, 100\nbed_corner = 3, -5.5\nretraction = 0.8\nmax_speed = 1,2,3,4\nround_bed = yes\n"
             "start_gcode = START_PRINT BED={bed_temperature}\nstart_gcode = G28\\nG1 Z5\n",
         "my.ini");
     CHECK(p.name == "Mine");
@@ -34,6 +38,7 @@ TEST_CASE("a profile says what it says and leaves the rest") {
     CHECK(p.nozzle_temperature == 200);
     CHECK(p.bed_temperature == 50);
     CHECK(p.bed_y == 110);
+    CHECK(p.corner_of_bed() == std::array<double, 2>{3, -5.5});
     CHECK(p.retraction == 0.8);
     CHECK(p.limits.speed == std::array<double, 4>{1, 2, 3, 4});
     CHECK(p.round_bed);
@@ -64,6 +69,13 @@ TEST_CASE("bad profiles are refused with the key and the line") {
     CHECK(refusal(temperatures + "start_gcode = G1 {speed}\n").find("start_gcode: start_gcode") == std::string::npos);
     CHECK(refusal(temperatures + "bed = 200,-1,200\n").find("my.ini:3: bed: bed's depth") == 0);
     CHECK(refusal(temperatures + "bed = 200,200,1e300\n").find("my.ini:3: bed: highest print") == 0);
+    CHECK(refusal(temperatures + "round_bed = yes\nbed = 150,140,100\n").find("my.ini:4: bed: bed is 150 x 140 mm;") ==
+          0);
+    CHECK(refusal(temperatures + "bed = 150,140,100\nround_bed = yes\n").find("my.ini:4: round_bed: bed is") == 0);
+    CHECK(refusal(temperatures + "bed_corner = 5\n").find("my.ini:3: bed_corner: '5' are not 2 numbers") == 0);
+    CHECK(refusal(temperatures + "bed_corner = 1e9,0\n").find("my.ini:3: bed_corner: bed's corner (mm) is") == 0);
+    CHECK(refusal(temperatures + "origin_at_centre = yes\nbed_corner = 5,5\n").find("my.ini:4: bed_corner: bed's") ==
+          0);
     CHECK(refusal(temperatures + "thumbnails = big\n").find("my.ini:3: thumbnails: 'big' is no size") == 0);
     CHECK(refusal(temperatures + "thumbnails = 4294967297x1\n").find("my.ini:3: thumbnails:") == 0);
     CHECK(refusal(temperatures + "name =\n").find("my.ini:3: name: the printer has no name") == 0);
@@ -171,6 +183,63 @@ TEST_CASE("what a PrusaSlicer config says and cannot be, or names and does not h
     CHECK(p.thumbnails == " 640x480/PNG,220x124");
     import_prusaslicer("brim_type = outer_only\nbrim_width = 5\n", "c.ini", s, t, p);
     CHECK(t.brim_width == 5 * units_per_mm);
+}
+
+TEST_CASE("beds of PrusaSlicer: where their corner is; discs; of other shapes a rectangle that lies on them") {
+    const auto bed = [](const std::string& shape, std::vector<std::string>* ignored = nullptr) {
+        Settings s;
+        TrackSettings t;
+        PrinterSettings p;
+        const ImportedConfig imported = import_prusaslicer("perimeters = 1\nbed_shape = " + shape, "c.ini", s, t, p);
+        if (ignored) *ignored = imported.ignored;
+        CHECK_NOTHROW(check_printer(p));
+        return p;
+    };
+    const auto polygon = [](int corners, double width, double depth, double x, double y) {
+        std::string shape;
+        char text[60];
+        for (int k = 0; k < corners; ++k) {
+            const double angle = (k + 0.5) * 2 * 3.14159265358979 / corners;
+            std::snprintf(text, sizeof text, "%s%gx%g", k > 0 ? "," : "", x + width / 2 * std::cos(angle),
+                          y + depth / 2 * std::sin(angle));
+            shape += text;
+        }
+        return shape;
+    };
+    using Place = std::array<double, 2>;
+    std::vector<std::string> ignored;
+    PrinterSettings p = bed("3x3,228x3,228x228,3x228", &ignored);
+    CHECK(p.corner_of_bed() == Place{3, 3});
+    CHECK(Place{p.bed_x, p.bed_y} == Place{225, 225});
+    CHECK(ignored.empty());
+    p = bed("1.48x1.02,119.48x1.02,119.48x67.02,1.48x67.02", &ignored);
+    CHECK(p.corner_of_bed() == Place{1.48, 1.02});
+    CHECK(Place{p.bed_x, p.bed_y} == Place{118, 66});
+    CHECK(ignored.empty());
+    CHECK(bed("-33x-93,0x-93,0x93,-33x93").corner_of_bed() == Place{-33, -93});
+    CHECK(bed("-107x-93,107x-93,107x93,-107x93").origin_at_centre);
+    for (const double middle : {0.0, 100.0}) {
+        p = bed(polygon(72, 180, 180, middle, middle), &ignored);
+        CHECK(p.round_bed);
+        CHECK(p.bed_x == 180);
+        CHECK(p.corner_of_bed() == Place{middle - 90, middle - 90});
+        CHECK(ignored.empty());
+    }
+    // A rounded rectangle, an ellipse: what is printed on lies on them.
+    p = bed("10x0,240x0,247x3,250x10,250x90,247x97,240x100,10x100,3x97,0x90,0x10,3x3", &ignored);
+    CHECK_FALSE(p.round_bed);
+    REQUIRE(ignored.size() == 1);
+    CHECK_THAT(ignored[0], Catch::StartsWith("bed_shape (no rectangle and no disc; "));
+    CHECK(p.bed_x == Approx(239.655).margin(0.01));
+    CHECK(p.bed_y == Approx(95.862).margin(0.01));
+    CHECK(p.corner_of_bed()[0] == Approx(5.172).margin(0.01));
+    p = bed(polygon(60, 300, 200, 150, 100), &ignored);
+    CHECK_FALSE(p.round_bed);
+    CHECK(p.bed_x == Approx(300 / std::sqrt(2.0)).margin(1));
+    CHECK(p.bed_x / p.bed_y == Approx(1.5).margin(0.01));
+    CHECK_THROWS_WITH(bed("0x0,100x0,100x10,10x10,10x100,0x100"),
+                      Catch::Contains("c.ini:2: bed_shape: ") && Catch::Contains("no middle to print on"));
+    CHECK_THROWS_WITH(bed("0x0,100x0,50x0"), Catch::Contains("is no area"));
 }
 
 TEST_CASE("a flat PrusaSlicer config is taken whole; a bad number is refused with key and line") {

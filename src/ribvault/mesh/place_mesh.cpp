@@ -116,9 +116,9 @@ void check_size(const Size& size, const Size& bed, const Rational& scale, bool r
                                              "inches use --scale 1000 or --scale 25.4, otherwise --height");
 }
 
-/// Middle of the bed on the lattice.
-Rational middle(double bed) {
-    Rational value(round_to_lattice(bed / 2 * static_cast<double>(units_per_mm)), units_per_mm);
+/// A length in mm, which is a decimal rounded to a double, as the decimal again.
+Rational on_lattice(double length) {
+    Rational value(round_to_lattice(length * static_cast<double>(units_per_mm)), units_per_mm);
     value.canonicalize();
     return value;
 }
@@ -152,8 +152,10 @@ Placement place(Mesh& mesh, const PlacementOptions& options) {
     check_size(size, {Rational(options.bed_x), Rational(options.bed_y), Rational(options.bed_z)}, placement.scale,
                options.round_bed, options.height_mm.has_value());
 
-    placement.offset[0] = middle(options.origin_at_centre ? 0 : options.bed_x) - placement.scale * low[0] - size[0] / 2;
-    placement.offset[1] = middle(options.origin_at_centre ? 0 : options.bed_y) - placement.scale * low[1] - size[1] / 2;
+    const std::array<double, 2> middle{options.bed_corner[0] + options.bed_x / 2,
+                                       options.bed_corner[1] + options.bed_y / 2};
+    for (std::size_t k = 0; k < 2; ++k)
+        placement.offset[k] = on_lattice(middle[k]) - placement.scale * low[k] - size[k] / 2;
     placement.offset[2] = -placement.scale * low[2];
     return placement;
 }

@@ -14,8 +14,9 @@ struct PlacementOptions {
     std::array<Rational, 3> rotate_degrees{Rational(0), Rational(0), Rational(0)};  ///< about X, Y, Z
     char up = 'z';                                 ///< the file's axis that points up
     double bed_x = 250, bed_y = 250, bed_z = 250;  ///< mm
-    bool round_bed = false;         ///< a disc of diameter bed_x
-    bool origin_at_centre = false;  ///< x = y = 0 is the middle of the bed, not its corner
+    bool round_bed = false;                        ///< a disc of diameter bed_x
+    /// Mm: x and y of the front left corner of the bed, or of the square around it.
+    std::array<double, 2> bed_corner{};
 };
 
 /// Turns first (`up` is a cyclic exchange of the axes: 'y' means x' = z, y' = x, z' = y; 'x' means x' = y, y' = z, z'

@@ -47,8 +47,8 @@ Box support_frame(const Mesh& mesh, const Placement& placement, const Settings& 
 void check_bed(const Mesh& mesh, const Placement& placement, const Settings& settings, const TrackSettings& tracks,
                const PrinterSettings& printer) {
     const double reach = to_mm(reach_of_skirt_and_brim(settings, tracks) + reach_of_supports(settings));
-    const double middle_x = printer.origin_at_centre ? 0 : printer.bed_x / 2,
-                 middle_y = printer.origin_at_centre ? 0 : printer.bed_y / 2;
+    const std::array<double, 2> corner = printer.corner_of_bed();
+    const double middle_x = corner[0] + printer.bed_x / 2, middle_y = corner[1] + printer.bed_y / 2;
     const double scale = placement.scale.get_d();
     double x = 0, y = 0, radius = 0;
     for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) {

@@ -153,6 +153,14 @@ void check_printer(const PrinterSettings& printer) {
     need("bed's width (mm)", printer.bed_x, 1, to_mm(lattice_bound));
     need("bed's depth (mm)", printer.bed_y, 1, to_mm(lattice_bound));
     need("highest print (mm)", printer.bed_z, 1, to_mm(lattice_bound));
+    for (const double corner : printer.bed_corner)
+        need("bed's corner (mm)", corner, -to_mm(lattice_bound), to_mm(lattice_bound));
+    const auto refuse = [](const std::string& message) { throw Error(ErrorKind::usage, message); };
+    if (printer.round_bed && printer.bed_x != printer.bed_y)
+        refuse("bed is " + decimal_text(printer.bed_x) + " x " + decimal_text(printer.bed_y) +
+               " mm; a round bed is as wide as it is deep");
+    if (printer.origin_at_centre && printer.bed_corner != std::array<double, 2>{})
+        refuse("bed's corner is given and the origin is its middle; choose one of them");
     thumbnail_sizes(printer.thumbnails);
     need("filament diameter (mm)", printer.filament_diameter, 0.1, 20);
     need("nozzle temperature (°C)", printer.nozzle_temperature, 0, 1000);

@@ -1,6 +1,7 @@
 #include "ribvault/print/import_prusaslicer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -10,6 +11,7 @@
 
 #include "ribvault/error.hpp"
 #include "ribvault/exact/rational.hpp"
+#include "ribvault/print/gcode_text.hpp"
 #include "ribvault/print/ini.hpp"
 
 namespace ribvault {
@@ -38,21 +40,71 @@ double number(const std::string& list) { return number_in(plain(list)); }
 int whole(const std::string& list) { return whole_number_in(plain(list)); }
 Unit length_in(const std::string& list) { return parse_length(plain(list), "length"); }
 
-void take_bed(PrinterSettings& printer, const std::string& shape) {
-    double lo_x = INFINITY, lo_y = INFINITY, hi_x = -INFINITY, hi_y = -INFINITY;
-    std::istringstream corners(shape);
-    std::string corner;
-    int count = 0;
-    for (; std::getline(corners, corner, ','); ++count) {
+using Place = std::array<double, 2>;  // mm
+
+std::vector<Place> corners_in(const std::string& shape) {
+    std::vector<Place> corners;
+    std::istringstream list(shape);
+    for (std::string corner; std::getline(list, corner, ',');) {
         const std::size_t x = corner.find('x');
         if (x == std::string::npos) throw Error(ErrorKind::usage, "'" + corner + "' is no corner");
-        const double px = number(corner.substr(0, x)), py = number(corner.substr(x + 1));
-        lo_x = std::min(lo_x, px), hi_x = std::max(hi_x, px), lo_y = std::min(lo_y, py), hi_y = std::max(hi_y, py);
+        corners.push_back({number(corner.substr(0, x)), number(corner.substr(x + 1))});
     }
-    const bool centred = lo_x < 0 && std::fabs(lo_x + hi_x) < 0.01 * hi_x && std::fabs(lo_y + hi_y) < 0.01 * hi_y;
-    if (!centred && (lo_x != 0 || lo_y != 0)) throw Ignored{"its corner is not at the origin"};
-    printer.bed_x = hi_x - lo_x, printer.bed_y = hi_y - lo_y;
-    printer.origin_at_centre = centred, printer.round_bed = count > 8;
+    return corners;
+}
+
+/// How much of the box around a bed, shrunk towards its middle, lies on the bed; 0: not even its middle does.
+double share_on_bed(const std::vector<Place>& corners, Place middle, Place half) {
+    double share = 1;
+    bool inside = false;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        Place a = corners[k], b = corners[(k + 1) % corners.size()];
+        for (std::size_t c = 0; c < 2; ++c) a[c] = (a[c] - middle[c]) / half[c], b[c] = (b[c] - middle[c]) / half[c];
+        if ((a[1] > 0) != (b[1] > 0) && (b[0] - a[0]) * -a[1] / (b[1] - a[1]) + a[0] > 0) inside = !inside;
+        // Along an edge max(|x|, |y|) is least at an end, or where x, y, x - y or x + y vanishes.
+        const double dx = b[0] - a[0], dy = b[1] - a[1];
+        for (const double t : {0.0, 1.0, -a[0] / dx, -a[1] / dy, (a[1] - a[0]) / (dx - dy), -(a[0] + a[1]) / (dx + dy)})
+            if (t >= 0 && t <= 1) share = std::min(share, std::max(std::fabs(a[0] + t * dx), std::fabs(a[1] + t * dy)));
+    }
+    constexpr double rounding = 1e-9;  // of a rectangle's own corners
+    return !inside ? 0 : share > 1 - rounding ? 1 : share;
+}
+
+/// A rectangle, a disc as a polygon of many corners, or a rectangle that lies on a bed of another shape.
+void take_bed(PrinterSettings& printer, const std::string& shape) {
+    const std::vector<Place> corners = corners_in(shape);
+    if (corners.empty()) throw Ignored{"empty"};
+    Place lo{INFINITY, INFINITY}, hi{-INFINITY, -INFINITY}, middle, half;
+    for (const Place& corner : corners)
+        for (std::size_t c = 0; c < 2; ++c) lo[c] = std::min(lo[c], corner[c]), hi[c] = std::max(hi[c], corner[c]);
+    for (std::size_t c = 0; c < 2; ++c) {
+        if (!(hi[c] > lo[c])) throw Error(ErrorKind::usage, "'" + shape + "' is no area");
+        middle[c] = (lo[c] + hi[c]) / 2, half[c] = (hi[c] - lo[c]) / 2;
+    }
+    double nearest = INFINITY, farthest = 0;
+    for (const Place& corner : corners) {
+        const double radius = std::hypot(corner[0] - middle[0], corner[1] - middle[1]);
+        nearest = std::min(nearest, radius), farthest = std::max(farthest, radius);
+    }
+    constexpr double rounding = 0.01;  // mm, of a disc's corners
+    const bool disc = corners.size() > 8 && farthest - nearest < rounding;
+    const double share = disc ? 1 : share_on_bed(corners, middle, half);
+    if (share == 0) throw Error(ErrorKind::usage, "'" + shape + "' has no middle to print on");
+    const auto rounded = [](double v, double steps_per_mm) { return std::round(v * steps_per_mm) / steps_per_mm; };
+    Place size{hi[0] - lo[0], hi[1] - lo[1]};
+    for (std::size_t c = 0; c < 2; ++c) {
+        if (disc) size[c] = 2 * nearest;
+        if (share < 1) size[c] *= share * (1 - 1e-6);
+        const double steps_per_mm = disc ? 1 / rounding : units_per_mm;
+        size[c] = rounded(size[c], steps_per_mm);
+        if (disc || share < 1) lo[c] = rounded(middle[c] - size[c] / 2, steps_per_mm);
+    }
+    printer.bed_x = size[0], printer.bed_y = size[1], printer.round_bed = disc;
+    printer.origin_at_centre = std::fabs(middle[0]) < rounding && std::fabs(middle[1]) < rounding;
+    printer.bed_corner = printer.origin_at_centre ? Place{} : lo;
+    if (share < 1)
+        throw Ignored{"no rectangle and no disc; printed on is what lies in its middle: " +
+                      decimal_text(printer.bed_x) + " x " + decimal_text(printer.bed_y) + " mm"};
 }
 
 /// PrusaSlicer's placeholders as ours; nothing when the text uses others, or expressions.

@@ -1,5 +1,6 @@
 #include "ribvault/print/ini.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -57,6 +58,21 @@ int whole_number_in(std::string_view text) {
     if (value != std::floor(value) || std::fabs(value) > 1e6)
         throw Error(ErrorKind::usage, "'" + std::string(text) + "' is not a whole number of at most 1000000");
     return static_cast<int>(value);
+}
+
+std::vector<double> numbers_in(std::string_view text, std::size_t count, std::string_view example) {
+    std::vector<double> values;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', from), text.size());
+        const std::string_view part = trimmed(text.substr(from, comma - from));
+        if (part.empty()) break;
+        values.push_back(number_in(part));
+        from = comma + 1;
+    }
+    if (values.size() != count || text.ends_with(','))
+        throw Error(ErrorKind::usage, "'" + std::string(text) + "' are not " + std::to_string(count) +
+                                          " numbers; write for example " + std::string(example));
+    return values;
 }
 
 std::string unescaped(std::string_view value) {

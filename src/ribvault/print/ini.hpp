@@ -22,6 +22,10 @@ std::vector<IniEntry> read_ini(std::string_view text, const std::string& name);
 double number_in(std::string_view text);
 int whole_number_in(std::string_view text);
 
+/// So many numbers between commas; blanks around them do not count. Throws Error (usage) that quotes the text and gives
+/// the example when it is none.
+std::vector<double> numbers_in(std::string_view text, std::size_t count, std::string_view example);
+
 /// `\n`, `\t`, `\"` and `\\` as the characters they stand for; outer quotes taken off.
 std::string unescaped(std::string_view value);
 

@@ -1,5 +1,6 @@
 #include "ribvault/print/printer_profile.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <map>
 
@@ -14,24 +15,6 @@ bool yes_or_no(const std::string& text) {
     if (text == "yes" || text == "true" || text == "1") return true;
     if (text == "no" || text == "false" || text == "0") return false;
     throw Error(ErrorKind::usage, "'" + text + "' is neither yes nor no");
-}
-
-template <std::size_t N>
-std::array<double, N> numbers(const std::string& text, const char* example) {
-    std::array<double, N> values{};
-    std::size_t from = 0;
-    for (std::size_t k = 0; k < N; ++k) {
-        const std::size_t comma = text.find(',', from);
-        if ((comma == std::string::npos) != (k + 1 == N))
-            throw Error(ErrorKind::usage,
-                        "'" + text + "' are not " + std::to_string(N) + " numbers; write for example " + example);
-        std::string part = text.substr(from, comma - from);
-        part.erase(0, part.find_first_not_of(' '));
-        part.erase(part.find_last_not_of(' ') + 1);
-        values[k] = number_in(part);
-        from = comma + 1;
-    }
-    return values;
 }
 
 using Setter = std::function<void(PrinterSettings&, const std::string&)>;
@@ -50,7 +33,8 @@ Setter line_of(std::string PrinterSettings::*member) {
 }
 Setter axes(std::array<double, 4> MotionLimits::*member) {
     return [member](PrinterSettings& p, const std::string& v) {
-        p.limits.*member = numbers<4>(v, "500,500,12,120 (x, y, z, filament)");
+        const std::vector<double> values = numbers_in(v, 4, "500,500,12,120 (x, y, z, filament)");
+        std::copy(values.begin(), values.end(), (p.limits.*member).begin());
     };
 }
 Setter acceleration(double MotionLimits::*member) {
@@ -78,8 +62,13 @@ const std::map<std::string, Setter>& keys() {
          }},
         {"bed",
          [](P& p, const std::string& v) {
-             const auto size = numbers<3>(v, "250,210,200");
+             const std::vector<double> size = numbers_in(v, 3, "250,210,200");
              p.bed_x = size[0], p.bed_y = size[1], p.bed_z = size[2];
+         }},
+        {"bed_corner",
+         [](P& p, const std::string& v) {
+             const std::vector<double> corner = numbers_in(v, 2, "3,-5");
+             p.bed_corner = {corner[0], corner[1]};
          }},
         {"round_bed", flag(&P::round_bed)},
         {"origin_at_centre", flag(&P::origin_at_centre)},

@@ -119,6 +119,7 @@ Json printer(const PrinterSettings& p) {
             {"surplus_clearance_mm", p.surplus_clearance},
             {"bed_mm", {p.bed_x, p.bed_y, p.bed_z}},
             {"round_bed", p.round_bed},
+            {"bed_corner_mm", p.corner_of_bed()},
             {"origin_at_centre", p.origin_at_centre},
             {"speed_limits_mm_s", p.limits.speed},
             {"acceleration_limits_mm_s2", p.limits.acceleration},
