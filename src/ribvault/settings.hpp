@@ -125,6 +125,8 @@ struct PrinterSettings {
     double filament_diameter = 1.75;  ///< mm
     int nozzle_temperature = 205;     ///< °C
     int bed_temperature = 60;         ///< °C; 0: not heated
+    int first_layer_temperature = 0;  ///< °C, of the nozzle on layer 0; 0: as nozzle_temperature
+    int first_layer_bed_temperature = 0;  ///< °C; 0: as bed_temperature
     int support_extruder = 0;         ///< the tool (T0, T1, ...) of external supports; all else is printed by T0
     int support_temperature = 0;      ///< °C, of that tool; 0: as nozzle_temperature
     double fan_percent = 100;         ///< from the second layer on
@@ -155,6 +157,12 @@ struct PrinterSettings {
 
     std::array<double, 2> corner_of_bed() const {
         return origin_at_centre ? std::array<double, 2>{-bed_x / 2, -bed_y / 2} : bed_corner;
+    }
+    int nozzle_temperature_on(int layer) const {
+        return layer == 0 && first_layer_temperature > 0 ? first_layer_temperature : nozzle_temperature;
+    }
+    int bed_temperature_on(int layer) const {
+        return layer == 0 && first_layer_bed_temperature > 0 ? first_layer_bed_temperature : bed_temperature;
     }
 };
 

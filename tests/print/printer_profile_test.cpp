@@ -140,7 +140,7 @@ TEST_CASE("a PrusaSlicer bundle: the presets it names, with what they inherit; t
     CHECK(p.bed_x == 200);
     CHECK(p.bed_y == 180);
     CHECK(p.retraction == 0.8);
-    CHECK(p.start_gcode == "M104 S{nozzle_temperature}\nG28");
+    CHECK(p.start_gcode == "M104 S{first_layer_temperature}\nG28");
     CHECK(p.end_gcode == end);
     const auto ignored = [&](const std::string& key) {
         return std::any_of(imported.ignored.begin(), imported.ignored.end(),
@@ -183,6 +183,33 @@ TEST_CASE("what a PrusaSlicer config says and cannot be, or names and does not h
     CHECK(p.thumbnails == " 640x480/PNG,220x124");
     import_prusaslicer("brim_type = outer_only\nbrim_width = 5\n", "c.ini", s, t, p);
     CHECK(t.brim_width == 5 * units_per_mm);
+}
+
+TEST_CASE("PrusaSlicer's temperatures of the first layer, and its fan without cooling") {
+    const auto imported = [](const std::string& text) {
+        Settings s;
+        TrackSettings t;
+        PrinterSettings p;
+        import_prusaslicer(text, "c.ini", s, t, p);
+        return p;
+    };
+    const PrinterSettings p = imported(
+        "temperature = 210\nbed_temperature = 60\nfirst_layer_temperature = 215\nfirst_layer_bed_temperature = 65\n"
+        "start_gcode = M104 S[first_layer_temperature]\\nM190 S{first_layer_bed_temperature[0]}\\nM117 "
+        "[temperature]\n");
+    const std::string header = gcode_header({}, {}, p, {});
+    CHECK(header.find("\nM104 S215\nM190 S65\nM117 210\n") != std::string::npos);
+    CHECK(p.nozzle_temperature_on(1) == 210);
+    CHECK(p.bed_temperature_on(1) == 60);
+
+    const std::string fan = "max_fan_speed = 80\nmin_fan_speed = 30\nslowdown_below_layer_time = 9\n";
+    CHECK(imported(fan + "cooling = 1\nfan_always_on = 0\n").fan_percent == 80);
+    CHECK(imported(fan + "cooling = 0\nfan_always_on = 0\n").fan_percent == 0);
+    CHECK(imported(fan + "cooling = 0\n").fan_percent == 0);
+    CHECK(imported(fan + "cooling = 0\nfan_always_on = 1\n").fan_percent == 30);
+    CHECK(imported("cooling = 0\nfan_always_on = 1\nmin_fan_speed = 30%\n").fan_percent == 35);
+    CHECK(imported(fan + "cooling = 0\n").min_layer_time == 0);
+    CHECK(imported(fan).min_layer_time == 9);
 }
 
 TEST_CASE("beds of PrusaSlicer: where their corner is; discs; of other shapes a rectangle that lies on them") {

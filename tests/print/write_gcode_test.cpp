@@ -579,3 +579,27 @@ TEST_CASE("external supports are printed by their own tool, retracted and primed
     CHECK(changes(text_of(3).body).empty());
     CHECK(changes(gcode_header(both, {}, printer, {}, "")).empty());
 }
+
+TEST_CASE("the first layer's temperatures are those of the header, the others come with the second layer") {
+    PrinterSettings printer;
+    printer.first_layer_temperature = 215, printer.first_layer_bed_temperature = 65;
+    const std::string header = gcode_header({}, {}, printer, {});
+    CHECK(header.find("M109 S215") != std::string::npos);
+    CHECK(header.find("M190 S65") != std::string::npos);
+    const auto joint = [&](int layer) {
+        const LayerText text = gcode_layer(layer_of({}, layer), {}, {}, printer);
+        PrintStatistics statistics;
+        return gcode_joint(nullptr, text, {}, {}, printer, statistics);
+    };
+    CHECK(joint(1).find("M104 S205 ;") != std::string::npos);
+    CHECK(joint(1).find("M140 S60 ;") != std::string::npos);
+    for (const int layer : {0, 2}) CHECK(joint(layer).find("M1") == std::string::npos);
+    printer.support_extruder = 1;
+    CHECK(joint(1).find("M104 T0 S205 ;") != std::string::npos);  // whichever tool is at work
+    printer.first_layer_temperature = 205, printer.first_layer_bed_temperature = 0;
+    CHECK(joint(1).find("M104") == std::string::npos);
+    CHECK(joint(1).find("M140") == std::string::npos);
+    printer.start_gcode = "START T={first_layer_temperature} B={first_layer_bed_temperature}\n";
+    CHECK(gcode_header({}, {}, printer, {}).find("\nSTART T=205 B=60\n") != std::string::npos);
+    CHECK(gcode_header({}, {}, printer, {}).find("M109") == std::string::npos);
+}

@@ -66,6 +66,8 @@ std::string value_of(const std::string& name, const Settings& s, const PrinterSe
     const auto whole = [](double v) { return std::to_string(std::lround(v)); };
     if (name == "nozzle_temperature") return whole(p.nozzle_temperature);
     if (name == "bed_temperature") return whole(p.bed_temperature);
+    if (name == "first_layer_temperature") return whole(p.nozzle_temperature_on(0));
+    if (name == "first_layer_bed_temperature") return whole(p.bed_temperature_on(0));
     if (name == "support_temperature") return support_temperature(p);
     if (name == "support_extruder") return std::to_string(p.support_extruder);
     if (name == "layer_height") return decimal_text(to_mm(s.layer_height));
@@ -165,6 +167,8 @@ void check_printer(const PrinterSettings& printer) {
     need("filament diameter (mm)", printer.filament_diameter, 0.1, 20);
     need("nozzle temperature (°C)", printer.nozzle_temperature, 0, 1000);
     need("bed temperature (°C)", printer.bed_temperature, 0, 500);
+    need("nozzle temperature of the first layer (°C)", printer.first_layer_temperature, 0, 1000);
+    need("bed temperature of the first layer (°C)", printer.first_layer_bed_temperature, 0, 500);
     need("tool of external supports", printer.support_extruder, 0, 63);
     need("temperature of external supports (°C)", printer.support_temperature, 0, 1000);
     need("fan (percent)", printer.fan_percent, 0, 100);
@@ -220,11 +224,11 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
 
     const std::string start = acted_upon(printer.start_gcode);
     const bool heats_bed = !names(start, "M140") && !names(start, "M190") && !contains(start, "{bed_temperature}") &&
-                           printer.bed_temperature > 0;
-    const bool heats_nozzle =
-        !names(start, "M104") && !names(start, "M109") && !contains(start, "{nozzle_temperature}");
-    const std::string bed = std::to_string(printer.bed_temperature),
-                      nozzle = std::to_string(printer.nozzle_temperature);
+                           !contains(start, "{first_layer_bed_temperature}") && printer.bed_temperature_on(0) > 0;
+    const bool heats_nozzle = !names(start, "M104") && !names(start, "M109") &&
+                              !contains(start, "{nozzle_temperature}") && !contains(start, "{first_layer_temperature}");
+    const std::string bed = std::to_string(printer.bed_temperature_on(0)),
+                      nozzle = std::to_string(printer.nozzle_temperature_on(0));
     if (printer.flavour == Flavour::reprapfirmware) text += "T0\n";
     if (heats_bed) text += "M140 S" + bed + " ; heat the bed\n";
     if (heats_nozzle) text += "M104 S" + nozzle + " ; heat the nozzle\n";
@@ -259,7 +263,7 @@ std::string gcode_footer(const Settings& settings, const PrinterSettings& printe
     if (!names(end, "M104")) text += "M104 S0 ; nozzle off\n";
     if (printer.support_extruder > 0 && settings.outside() && !names(end, tool))
         text += "M104 " + tool + " S0 ; nozzle of the supports off\n";
-    if (!names(end, "M140") && printer.bed_temperature > 0) text += "M140 S0 ; bed off\n";
+    if (!names(end, "M140") && printer.bed_temperature_on(0) > 0) text += "M140 S0 ; bed off\n";
     text += fill_placeholders(printer.end_gcode, "end_gcode", settings, printer, facts);
     if (!names(end, "M84")) text += "M84 ; motors off\n";
     return text;

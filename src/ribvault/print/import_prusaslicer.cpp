@@ -110,8 +110,8 @@ void take_bed(PrinterSettings& printer, const std::string& shape) {
 /// PrusaSlicer's placeholders as ours; nothing when the text uses others, or expressions.
 std::optional<std::string> translated(std::string text) {
     static const std::vector<std::pair<const char*, const char*>> names{
-        {"first_layer_temperature", "nozzle_temperature"},
-        {"first_layer_bed_temperature", "bed_temperature"},
+        {"first_layer_temperature", "first_layer_temperature"},
+        {"first_layer_bed_temperature", "first_layer_bed_temperature"},
         {"temperature", "nozzle_temperature"},
         {"bed_temperature", "bed_temperature"},
         {"layer_height", "layer_height"},
@@ -244,13 +244,17 @@ const std::map<std::string, Field>& fields() {
             {"filament_diameter", printer_number(&P::filament_diameter)},
             {"temperature", temperature(&P::nozzle_temperature)},
             {"bed_temperature", temperature(&P::bed_temperature)},
+            {"first_layer_temperature", temperature(&P::first_layer_temperature)},
+            {"first_layer_bed_temperature", temperature(&P::first_layer_bed_temperature)},
             {"max_fan_speed", printer_number(&P::fan_percent)},
             {"perimeter_speed", speed(&P::print_speed)},
             {"infill_speed", speed(&P::support_speed)},
             {"first_layer_speed", speed(&P::first_layer_speed)},
             {"slowdown_below_layer_time", printer_number(&P::min_layer_time)},
             {"min_print_speed", speed(&P::min_print_speed)},
-            {"cooling", [](Target, const std::string& v) { whole(v); }},  // with the time, below
+            {"cooling", [](Target, const std::string& v) { whole(v); }},  // with what depends on it, below
+            {"fan_always_on", [](Target, const std::string& v) { whole(v); }},
+            {"min_fan_speed", [](Target, const std::string& v) { number(v); }},
             {"travel_speed", speed(&P::travel_speed)},
             {"retract_length", printer_number(&P::retraction)},
             {"retract_speed", printer_number(&P::retraction_speed)},
@@ -354,8 +358,18 @@ ImportedConfig import_prusaslicer(std::string_view text, const std::string& name
         if (key != "nozzle_diameter") take(key, entry);
     if (const auto brim = last.find("brim_type"); brim != last.end() && brim->second.value == "no_brim")
         tracks.brim_width = 0;
-    if (const auto cooling = last.find("cooling"); cooling != last.end() && whole(cooling->second.value) == 0)
+    const auto value_of = [&](const std::string& key, double otherwise) {
+        const bool taken = std::find(imported.taken.begin(), imported.taken.end(), key) != imported.taken.end();
+        return taken ? number(last.at(key).value) : otherwise;
+    };
+    if (value_of("cooling", 1) == 0) {  // PrusaSlicer's defaults where the config does not say
         printer.min_layer_time = 0;
+        printer.fan_percent = value_of("fan_always_on", 0) == 0 ? 0 : value_of("min_fan_speed", 35);
+    } else {
+        for (const char* key : {"fan_always_on", "min_fan_speed"})
+            if (std::erase(imported.taken, key) > 0)
+                imported.ignored.push_back(std::string(key) + " (the fan runs as max_fan_speed says)");
+    }
     if (imported.taken.empty())
         throw Error(ErrorKind::usage, name + ": no setting that we know; is it a PrusaSlicer config or bundle?");
     printer.name = "imported from PrusaSlicer";

@@ -75,6 +75,8 @@ const std::map<std::string, Setter>& keys() {
         {"filament_diameter", decimal(&P::filament_diameter)},
         {"nozzle_temperature", integer(&P::nozzle_temperature)},
         {"bed_temperature", integer(&P::bed_temperature)},
+        {"first_layer_temperature", integer(&P::first_layer_temperature)},
+        {"first_layer_bed_temperature", integer(&P::first_layer_bed_temperature)},
         {"support_extruder", integer(&P::support_extruder)},
         {"support_temperature", integer(&P::support_temperature)},
         {"fan_percent", decimal(&P::fan_percent)},

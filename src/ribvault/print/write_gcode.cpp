@@ -239,6 +239,20 @@ double cruising_seconds(const LayerPaths& layer, const PrinterSettings& printer)
     return seconds;
 }
 
+/// From the first layer's temperatures to those of the layers above it.
+std::string temperatures_of_the_rest(const PrinterSettings& printer) {
+    std::string text;
+    const auto set = [&](const char* command, int temperature) {
+        text += command;
+        append_integer(text, temperature);
+        text += " ; as from the second layer on\n";
+    };
+    if (printer.nozzle_temperature_on(0) != printer.nozzle_temperature)
+        set(printer.support_extruder > 0 ? "M104 T0 S" : "M104 S", printer.nozzle_temperature);
+    if (printer.bed_temperature_on(0) != printer.bed_temperature) set("M140 S", printer.bed_temperature);
+    return text;
+}
+
 }  // namespace
 
 PrintStatistics& PrintStatistics::operator+=(const PrintStatistics& other) {
@@ -287,6 +301,7 @@ std::string gcode_joint(const LayerText* below, const LayerText& layer, const Tr
         append_integer(writer.text, std::lround(printer.fan_percent * 2.55));
         writer.text += " ; fan\n";
     }
+    if (layer.layer == 1) writer.text += temperatures_of_the_rest(printer);
     writer.rise(settings.top_of(layer.layer), settings.height_of(layer.layer));
     if (layer.first) {
         // After the header the tool is T0; after a layer without tracks it may be either.

@@ -70,7 +70,8 @@ LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Setti
 
 /// What joins a layer to the one below (nullptr: to the header, which leaves the filament retracted): heading, the
 /// nozzle raised, the way to the first track by the same rules as inside a layer, `map` being the upper layer's. After
-/// a layer without tracks the filament stays retracted. Adds to `statistics`.
+/// a layer without tracks the filament stays retracted. Layer 1 brings the fan, and the temperatures where layer 0 has
+/// its own. Adds to `statistics`.
 std::string gcode_joint(const LayerText* below, const LayerText& layer, const TravelMap& map, const Settings& settings,
                         const PrinterSettings& printer, PrintStatistics& statistics);
 

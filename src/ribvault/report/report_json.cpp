@@ -102,6 +102,8 @@ Json printer(const PrinterSettings& p) {
             {"filament_diameter_mm", p.filament_diameter},
             {"nozzle_temperature_c", p.nozzle_temperature},
             {"bed_temperature_c", p.bed_temperature},
+            {"first_layer_temperature_c", p.first_layer_temperature},
+            {"first_layer_bed_temperature_c", p.first_layer_bed_temperature},
             {"support_extruder", p.support_extruder},
             {"support_temperature_c", p.support_temperature},
             {"fan_percent", p.fan_percent},
