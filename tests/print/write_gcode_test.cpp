@@ -204,6 +204,23 @@ TEST_CASE("a stub on its own gets a dot's filament, one that is joined to a trac
     CHECK(filament_of_second({first, on_track, first}) == Approx(stub).margin(1e-5));
 }
 
+TEST_CASE("a stub that gets a dot's filament gets it at the flow of a track, and takes the time of it") {
+    PrinterSettings printer;
+    printer.min_layer_time = 0;
+    const ToolPath first = path_of(TrackKind::cover, {{0, 0}, {5 * mm, 0}});
+    for (const Unit stub : {500, 2000, 9999}) {
+        const auto layer = [&](std::vector<Point> points) {
+            return whole_layer(layer_of({first, path_of(TrackKind::support, std::move(points)), first}), {}, printer);
+        };
+        const Whole with_stub = layer({{6 * mm, 0}, {6 * mm, stub}}), with_dot = layer({{6 * mm, 0}});
+        const Parsed::Track track = parse(with_stub.text).tracks.at(1);
+        const double seconds = to_mm(stub) / (track.feed_rate / 60),
+                     flow = track.filament * std::numbers::pi / 4 * 1.75 * 1.75 / seconds;
+        CHECK(flow == Approx(60 * 0.4 * 0.2).epsilon(0.01));
+        CHECK(with_stub.statistics.seconds == Approx(with_dot.statistics.seconds).margin(0.02));
+    }
+}
+
 TEST_CASE("types, widths, heights and statistics by kind") {
     Settings settings;
     settings.first_layer_height = 30000;

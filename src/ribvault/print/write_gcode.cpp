@@ -115,10 +115,12 @@ struct Writer {
     }
     void track(const ToolPath& path, Unit height, double mm_per_s, bool joined) {
         double volume_per_mm = to_mm(path.width) * to_mm(height);
-        // A stub shorter than a quarter of its width, on its own, gets a dot's filament: it is a dot, a little drawn
-        // out.
-        if (const double whole = length(path); !joined && 4 * whole < static_cast<double>(path.width))
-            volume_per_mm *= std::numbers::pi / 4 * static_cast<double>(path.width) / whole;
+        // A stub shorter than a quarter of its width, on its own, gets a dot's filament, at the flow of a track: it is
+        // a dot, a little drawn out.
+        if (const double whole = length(path); !joined && 4 * whole < static_cast<double>(path.width)) {
+            const double more = std::numbers::pi / 4 * static_cast<double>(path.width) / whole;
+            volume_per_mm *= more, mm_per_s /= more;
+        }
         const double filament_per_unit = to_mm(1) * volume_per_mm / filament_area(printer);
         double sum = 0;
         const std::size_t count = path.points.size();
