@@ -159,6 +159,11 @@ class Printing(unittest.TestCase):
         advised = re.search(r"use --scale (\S+) or less", done.stderr).group(1)
         self.assertEqual(self.run_program("--printer", "microdelta", "--scale", advised).returncode, 0)
 
+    def test_every_move_of_a_fine_print_extrudes(self):
+        text, _ = self.gcode("--nozzle", "0.1", "--layer-height", "0.02", "--filament-diameter", "2.85", "--height", "1.5")
+        self.assertIsNone(re.search(r" E0(?![.\d])", text))
+        self.assertEqual(subprocess.run([PROGRAM, "verify", "a.gcode", "--inside", "--quiet"], cwd=self.folder).returncode, 0)
+
     def test_thumbnails(self):
         text, _ = self.gcode("--thumbnails", "16x16,220x124")
         self.assertEqual(re.findall(r"^; thumbnail begin (\d+x\d+) ", text, re.M), ["16x16", "220x124"])

@@ -221,6 +221,24 @@ TEST_CASE("a stub that gets a dot's filament gets it at the flow of a track, and
     }
 }
 
+TEST_CASE("every move along a track pushes filament, and what one pushes too much the next ones do not") {
+    Settings settings;
+    settings.layer_height = settings.first_layer_height = 2000, settings.nozzle = 10000;
+    PrinterSettings printer;
+    printer.filament_diameter = 2.85;
+    ToolPath fine = path_of(TrackKind::support, {{0, 0}});
+    fine.width = 10000;
+    for (int k = 1; k <= 20; ++k) fine.points.push_back({500 * k, 0});
+    fine.points.push_back({5 * mm, 0});
+    const std::string text = whole_layer(layer_of({fine}), settings, printer).text;
+    CHECK(text.find(" E0\n") == std::string::npos);
+    CHECK(text.find(" E0 ") == std::string::npos);
+    const Parsed read = parse(text);
+    REQUIRE(read.tracks.size() == 1);
+    CHECK(read.tracks[0].points.size() == fine.points.size());
+    CHECK(read.tracks[0].filament == Approx(5 * 0.1 * 0.02 / (std::numbers::pi / 4 * 2.85 * 2.85)).margin(1.1e-5));
+}
+
 TEST_CASE("types, widths, heights and statistics by kind") {
     Settings settings;
     settings.first_layer_height = 30000;

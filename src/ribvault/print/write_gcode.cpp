@@ -94,11 +94,13 @@ struct Writer {
         statistics.travel += way.length / static_cast<double>(units_per_mm);
         statistics.open_air += way.open_air / static_cast<double>(units_per_mm);
     }
-    /// The filament to push so that all since the layer's start is right to the last decimal.
+    /// The filament to push so that all since the layer's start is right to the last decimal. At least that decimal:
+    /// a move that pushes nothing is none that extrudes. Later ones push less for it.
     std::int64_t next_push(double mm_of_filament) {
         to_push += mm_of_filament;
-        const std::int64_t before = std::exchange(pushed, hundred_thousandths(to_push));
-        return pushed - before;
+        const std::int64_t push = std::max<std::int64_t>(1, hundred_thousandths(to_push) - pushed);
+        pushed += push;
+        return push;
     }
     /// The flow is that of a track at this speed.
     void dot(const ToolPath& path, Unit height, double mm_per_s) {

@@ -61,7 +61,8 @@ struct LayerText {
 /// cross-section as the paper counts material; a dot (path of one point) a disc of that width and height, in place; so
 /// does a path shorter than w / 4 that no other continues. Both at the flow of a track, however slow that is. E
 /// has five decimals; its rounding is carried on, so that its sum over the tracks of a layer is within 0.00001 mm of
-/// the volume over the filament's cross-section.
+/// the volume over the filament's cross-section, unless its last moves are so short that the least E, 0.00001 mm, is
+/// more than theirs.
 /// A layer that would take less than printer.min_layer_time is written slower, so that it takes about that, no track
 /// below printer.min_print_speed.
 ///
