@@ -307,6 +307,13 @@ TEST_CASE("a layer that would set too little is printed slower, but not slower t
     CHECK(at(60 * mm, slow).body == at(60 * mm, plain).body);  // 6 s as it is
     slow.min_layer_time = 60, slow.min_print_speed = 0.5;
     CHECK(at(20 * mm, slow).statistics.seconds == Approx(60).epsilon(0.011));
+    // Most of it is as slow as it may be before the rest is slow enough.
+    slow.min_layer_time = 10, slow.min_print_speed = 15, slow.support_speed = 200;
+    std::vector<ToolPath> mixed = square(20 * mm);
+    mixed[0].points.resize(2), mixed[0].closed = false;
+    for (Unit y = 1; y <= 14; ++y) mixed.push_back(path_of(TrackKind::support, {{0, y * 10000}, {10 * mm, y * 10000}}));
+    CHECK(gcode_layer(layer_of(mixed, 1), {}, {}, slow).statistics.seconds == Approx(10).epsilon(0.011));
+    slow.support_speed = PrinterSettings{}.support_speed;
     slow.min_layer_time = 5;
     slow.min_print_speed = 100;                                // nothing gets faster
     CHECK(at(20 * mm, slow).body == fast.body);

@@ -235,12 +235,30 @@ LayerText layer_at(double share, const LayerPaths& layer, const TravelMap& map, 
     return out;
 }
 
-/// Seconds that a layer's tracks take at full speed, without acceleration.
-double cruising_seconds(const LayerPaths& layer, const PrinterSettings& printer) {
+/// Seconds that a layer's tracks take at a share of their speeds, without acceleration.
+double cruising_seconds(double share, const LayerPaths& layer, const std::vector<ToolPath>& beside,
+                        const PrinterSettings& printer) {
     double seconds = 0;
-    for (const ToolPath& path : layer.paths)
-        seconds += length(path) / units_per_mm / speed_of(path, layer.layer, printer, 1);
+    for (const std::vector<ToolPath>* paths : {&beside, &layer.paths})
+        for (const ToolPath& path : *paths) {
+            const double way =
+                path.points.size() == 1 ? std::numbers::pi / 4 * static_cast<double>(path.width) : length(path);
+            seconds += way / units_per_mm / speed_of(path, layer.layer, printer, share);
+        }
     return seconds;
+}
+
+/// The share of their speeds at which a layer's tracks take so long without acceleration; 0: none, they are as slow as
+/// they may be before.
+double share_that_takes(double seconds, const LayerPaths& layer, const std::vector<ToolPath>& beside,
+                        const PrinterSettings& printer) {
+    double slow = 0, fast = 1;
+    if (cruising_seconds(slow, layer, beside, printer) <= seconds) return slow;
+    for (int step = 0; step < 40; ++step) {
+        const double share = (slow + fast) / 2;
+        (cruising_seconds(share, layer, beside, printer) > seconds ? slow : fast) = share;
+    }
+    return fast;
 }
 
 /// From the first layer's temperatures to those of the layers above it.
@@ -275,14 +293,14 @@ PrintStatistics& PrintStatistics::operator+=(const PrintStatistics& other) {
 LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Settings& settings,
                       const PrinterSettings& printer, const std::vector<ToolPath>& beside) {
     LayerText text = layer_at(1, layer, map, settings, printer, beside);
-    double cruising = text.statistics.seconds < printer.min_layer_time ? cruising_seconds(layer, printer) : 0;
-    const double full = cruising;
+    if (layer.paths.empty()) return text;
     // The slower, the less of the time is acceleration, which no share of the speeds tells: a few rounds settle it.
-    for (int round = 0; round < 4 && cruising > 0; ++round) {
+    double share = 1;
+    for (int round = 0; round < 8 && share > 0; ++round) {
         const double missing = printer.min_layer_time - text.statistics.seconds;
         if (missing <= 0.01 * printer.min_layer_time) break;
-        cruising += missing;
-        text = layer_at(full / cruising, layer, map, settings, printer, beside);
+        share = share_that_takes(cruising_seconds(share, layer, beside, printer) + missing, layer, beside, printer);
+        text = layer_at(share, layer, map, settings, printer, beside);
     }
     return text;
 }
