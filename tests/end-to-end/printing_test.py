@@ -159,6 +159,9 @@ class Printing(unittest.TestCase):
         advised = re.search(r"use --scale (\S+) or less", done.stderr).group(1)
         self.assertEqual(self.run_program("--printer", "microdelta", "--scale", advised).returncode, 0)
 
+    def test_a_tool_that_prints_nothing_stays_cold(self):
+        self.assertNotIn("T2", self.gcode("--support", "both", "--support-extruder", "2", "--thumbnails", "none")[0])
+
     def test_every_move_of_a_fine_print_extrudes(self):
         text, _ = self.gcode("--nozzle", "0.1", "--layer-height", "0.02", "--filament-diameter", "2.85", "--height", "1.5")
         self.assertIsNone(re.search(r" E0(?![.\d])", text))

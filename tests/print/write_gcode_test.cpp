@@ -424,18 +424,24 @@ TEST_CASE("start G-code that heats itself leaves the supports' tool to the heade
         for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++times;
         return times;
     };
-    const std::string header = gcode_header(settings, {}, printer, {}, "");
+    PrintFacts facts;
+    facts.support_tool = true;
+    const std::string header = gcode_header(settings, {}, printer, facts, "");
     CHECK(header.find("M109 T1 S225") > header.find("M109 S205"));
     CHECK(count(header, "M109 T1 S225") == 1);
     CHECK(count(header, "so do the supports") == 1);
-    CHECK(count(gcode_footer(settings, printer, {}), "M104 T1 S0") == 1);
+    CHECK(count(gcode_footer(settings, printer, facts), "M104 T1 S0") == 1);
+    // Nothing is printed with it.
+    CHECK(count(gcode_header(settings, {}, printer, {}, ""), "T1") == 0);
+    CHECK(count(gcode_footer(settings, printer, {}), "T1") == 0);
     printer.start_gcode += "M109 T{support_extruder} S{support_temperature}\n";
-    const std::string own = gcode_header(settings, {}, printer, {}, "");
+    const std::string own = gcode_header(settings, {}, printer, facts, "");
     CHECK(count(own, "M109 T1 S225") == 1);
     CHECK(count(own, "M104 T1") == 0);
+    CHECK(count(own, "so do the supports") == 1);  // what the first change to it primes
     for (const char* other : {"M109 S205 T10\n", "START1 TEMP=205 M109\n", "M109 S205 ; T1 comes later\n"}) {
         printer.start_gcode = other;
-        CHECK(count(gcode_header(settings, {}, printer, {}, ""), "M109 T1 S225") == 1);
+        CHECK(count(gcode_header(settings, {}, printer, facts, ""), "M109 T1 S225") == 1);
     }
 }
 
@@ -613,13 +619,13 @@ TEST_CASE("external supports are printed by their own tool, retracted and primed
     LayerText empty;
     CHECK(gcode_joint(&empty, upper, map, {}, printer, statistics).find("\nT0\n") != std::string::npos);
     // The first use of a tool primes what the header has retracted.
-    Settings both;
-    both.support = Support::both;
-    CHECK(changes(gcode_header(both, {}, printer, {}, "")) == std::vector<std::string>{"M83 ; T2", "G1 E- T0"});
+    PrintFacts used;
+    used.support_tool = true;
+    CHECK(changes(gcode_header({}, {}, printer, used, "")) == std::vector<std::string>{"M83 ; T2", "G1 E- T0"});
     CHECK(changes(gcode_header({}, {}, printer, {}, "")).empty());
     printer.support_extruder = 0;
     CHECK(changes(text_of(3).body).empty());
-    CHECK(changes(gcode_header(both, {}, printer, {}, "")).empty());
+    CHECK(changes(gcode_header({}, {}, printer, used, "")).empty());
 }
 
 TEST_CASE("the first layer's temperatures are those of the header, the others come with the second layer") {

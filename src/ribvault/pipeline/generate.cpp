@@ -223,8 +223,12 @@ private:
                             " places are too narrow); scale it up or use a smaller nozzle");
         const auto from = Time::now();
         if (gcode_) {
-            const PrintFacts facts{total_, report_.totals.print_seconds, report_.totals.filament_mm, box_,
-                                   to_mm(job_.settings.top_of(total_ - 1))};
+            const PrintFacts facts{total_,
+                                   report_.totals.print_seconds,
+                                   report_.totals.filament_mm,
+                                   box_,
+                                   to_mm(job_.settings.top_of(total_ - 1)),
+                                   report_.totals.external_support_volume_mm3 > 0};
             gcode_->write(gcode_header(job_.settings, job_.tracks, job_.printer, facts, thumbnails()));
             spool_->replay_backwards([&](std::string_view text) { gcode_->write(text); });
             gcode_->write(end_of_layers_);

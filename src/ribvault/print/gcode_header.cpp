@@ -236,8 +236,9 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
                       heat_tool =
                           "M104 " + tool + " S" + support_temperature(printer) + " ; heat the nozzle of the supports\n",
                       wait_for_tool = "M109 " + tool + " S" + support_temperature(printer) + " ; wait for it\n";
-    const bool heats_tool = printer.support_extruder > 0 && settings.outside() &&
-                            (heats_nozzle || (!contains(start, "{support_temperature}") && !names(start, tool)));
+    const bool uses_tool = printer.support_extruder > 0 && facts.support_tool;
+    const bool heats_tool =
+        uses_tool && (heats_nozzle || (!contains(start, "{support_temperature}") && !names(start, tool)));
     if (heats_tool && heats_nozzle) text += heat_tool;
     if (heats_bed) text += "M190 S" + bed + " ; wait for the bed\n";
     if (heats_nozzle) text += "M109 S" + nozzle + " ; wait for the nozzle\n";
@@ -249,7 +250,7 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
     if (printer.retraction == 0) return text;
     const std::string retract =
         "G1 E-" + decimal_text(printer.retraction) + " F" + decimal_text(printer.retraction_speed * 60);
-    if (heats_tool)  // else start G-code does, and only that knows when it is hot
+    if (uses_tool)  // as hot as the nozzle of the rest, by what is above or by start G-code
         text += tool + "\n" + retract + " ; so do the supports\nT0\n";
     text += retract + " ; the first layer starts retracted\n";
     return text;
@@ -261,7 +262,7 @@ std::string gcode_footer(const Settings& settings, const PrinterSettings& printe
     const std::string end = acted_upon(printer.end_gcode);
     const std::string tool = "T" + std::to_string(printer.support_extruder);
     if (!names(end, "M104")) text += "M104 S0 ; nozzle off\n";
-    if (printer.support_extruder > 0 && settings.outside() && !names(end, tool))
+    if (printer.support_extruder > 0 && facts.support_tool && !names(end, tool))
         text += "M104 " + tool + " S0 ; nozzle of the supports off\n";
     if (!names(end, "M140") && printer.bed_temperature_on(0) > 0) text += "M140 S0 ; bed off\n";
     text += fill_placeholders(printer.end_gcode, "end_gcode", settings, printer, facts);

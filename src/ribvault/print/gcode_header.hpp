@@ -15,6 +15,7 @@ struct PrintFacts {
     double filament_mm = 0;   ///< pushed along tracks
     Box box;                  ///< of the tracks' centre lines, lattice units
     double height_mm = 0;     ///< top of the last layer
+    bool support_tool = false;  ///< external supports are printed, so that their tool is used if they have their own
 };
 
 /// Throws Error (usage) naming the first printer setting with which no G-code can be written: a number out of range,
