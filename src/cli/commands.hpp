@@ -3,11 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <climits>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "ribvault/error.hpp"
 #include "ribvault/exact/rational.hpp"
 
 namespace ribvault::cli {
@@ -22,6 +25,40 @@ inline CLI::Option* add_output(CLI::App* command, const std::string& option, std
     const CLI::Validator named(
         [](const std::string& name) { return std::string(name.empty() ? "the name of the output is empty" : ""); }, "");
     return command->add_option(option, target, help)->check(named)->type_name(type);
+}
+
+/// A whole number, decimal (a leading 0 does not make it octal). Throws Error (usage) naming the option.
+inline int whole_in(const std::string& text, const std::string& option, int least = INT_MIN, int most = INT_MAX) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+        throw Error(ErrorKind::usage, option + ": '" + text + "' is no whole number");
+    if (value < least || value > most)
+        throw Error(ErrorKind::usage, option + " is " + text + "; it must lie between " + std::to_string(least) +
+                                          " and " + std::to_string(most));
+    return value;
+}
+
+inline CLI::Option* add_whole(CLI::App* command, const std::string& option, int& target, const std::string& help,
+                              int least = INT_MIN, int most = INT_MAX) {
+    return command
+        ->add_option_function<std::string>(
+            option, [=, &target](const std::string& text) { target = whole_in(text, option, least, most); }, help)
+        ->type_name("INT");
+}
+
+/// An option for a decimal number.
+inline CLI::Option* add_decimal(CLI::App* command, const std::string& option, double& target, const std::string& help) {
+    return command
+        ->add_option_function<std::string>(
+            option,
+            [&target, option](const std::string& text) {
+                const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), target);
+                if (error != std::errc() || end != text.data() + text.size())
+                    throw Error(ErrorKind::usage, option + ": '" + text + "' is no number");
+            },
+            help)
+        ->type_name("FLOAT");
 }
 
 /// An option for a length in mm, taken exactly as written.

@@ -64,9 +64,9 @@ void add_geometry(CLI::App* command, Written& w) {
     add_length(group, "--layer-height", s.layer_height, "h (default 0.2)");
     add_length(group, "--first-layer-height", w.first_layer_height, "height of layer 0 (default: --layer-height)");
     add_length(group, "--nozzle", s.nozzle, "d, the width of every track (default 0.4)");
-    group->add_option("--perimeters", s.perimeters, "p (default 1)");
-    group->add_option("--top-layers", s.top_layers, "solid layers under every roof (default 1)");
-    group->add_option("--bottom-layers", s.bottom_layers, "solid layers over every floor (default 1)");
+    add_whole(group, "--perimeters", s.perimeters, "p (default 1)");
+    add_whole(group, "--top-layers", s.top_layers, "solid layers under every roof (default 1)");
+    add_whole(group, "--bottom-layers", s.bottom_layers, "solid layers over every floor (default 1)");
     add_length(group, "--max-gap", s.max_gap, "close open contours over gaps up to this (default 0.05)");
     const auto outside = command->add_option_group("External supports (Section 6)");
     add_choice(
@@ -75,8 +75,8 @@ void add_geometry(CLI::App* command, Written& w) {
         "internal: hollow, supports in the cavities; external: solid, supports outside; both (default internal)");
     add_length(outside, "--support-gap", s.support_gap,
                "keep external supports this far off the object, in plane (default 0)");
-    outside->add_option("--support-gap-layers", s.support_gap_layers,
-                        "leave so many layers empty between them and what they hold up (default 0)");
+    add_whole(outside, "--support-gap-layers", s.support_gap_layers,
+              "leave so many layers empty between them and what they hold up (default 0)");
     outside->add_flag("--bed-only", s.bed_only, "external supports stand on the bed, nowhere on the object");
     add_length(outside, "--pillar-length", w.pillar_length,
                "track on every layer of a tree that stands free (default: ten times the nozzle)");
@@ -107,13 +107,13 @@ void add_geometry(CLI::App* command, Written& w) {
                      "thrifty: chosen)")
         ->check(CLI::IsMember({"half", "whole", "chosen"}))
         ->type_name("NAME");
-    supports->add_option("--tries", s.tries, "seeds to try; the one that takes the least is used (default 1)");
+    add_whole(supports, "--tries", s.tries, "seeds to try; the one that takes the least is used (default 1)");
     supports->add_flag("--no-doubling", w.no_doubling, "thrifty with the paper's order of points");
     supports->add_flag("--length-bound", s.length_bound, "report how short any supports could be at least");
     add_length(supports, "--erosion-step", w.erosion_step, "what a free tip loses per layer (default: rho)");
     supports->add_flag("--no-straighten", w.no_straighten, "leave out the straightening operator");
     const auto lines =
-        supports->add_option("--wall-lines", s.wall_lines, "tracks side by side in long or tall walls (default 1)");
+        add_whole(supports, "--wall-lines", s.wall_lines, "tracks side by side in long or tall walls (default 1)");
     add_length(supports, "--wall-lines-longer", s.wall_lines_longer,
                "what is long, from the root to the farthest tip (default 10)")
         ->needs(lines);
@@ -126,7 +126,7 @@ void add_geometry(CLI::App* command, Written& w) {
         supports->add_flag("--no-branch-bonus", w.no_branch_bonus, "leave out the heuristic of equation (4)");
     add_length(supports, "--branch-bonus", w.branch_bonus, "its bonus (default: twice the nozzle, 4r)")
         ->excludes(no_bonus);
-    supports->add_option("--valence-limit", s.valence_limit, "valence from which a junction has no bonus (default 4)");
+    add_whole(supports, "--valence-limit", s.valence_limit, "valence from which a junction has no bonus (default 4)");
     supports
         ->add_option_function<std::string>(
             "--seed", [&s](const std::string& text) { s.seed = parse_seed(text); }, "of the ties (default 1)")
@@ -285,7 +285,7 @@ std::function<int()> add_generate(CLI::App& app) {
     add_output(command, "--mesh", written->mesh, "supports as solids, .stl or .3mf");
     add_output(command, "--layers", written->layers, "the geometry of every layer, as JSON lines");
     add_output(command, "--html", written->html, "page to look at the whole run, in one file");
-    command->add_option("--threads", written->job.threads, "0: all processors")->check(CLI::Range(0, 1024));
+    add_whole(command, "--threads", written->job.threads, "0: all processors", 0, 1024);
     command->add_flag("--quiet", written->quiet, "print errors only");
     add_profiles(command, written->job, written->first_layer_height, written->imported_from,
                  written->imported);

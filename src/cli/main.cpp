@@ -38,17 +38,6 @@ std::string not_expected(const CLI::App& command, const std::string& word) {
     return what;
 }
 
-/// A value that is none for its option, whose name CLI11's message ends with: "Could not convert: --x = y".
-std::string not_converted(const CLI::App& command, const std::string& message) {
-    for (const CLI::Option* option : options_of(command)) {
-        const std::string name = option->get_name();
-        if (option->results().empty() || message.find(": " + name + " = ") == std::string::npos) continue;
-        return name + ": '" + option->results().front() + "' is no " +
-               (option->get_type_name() == "INT" ? "whole number" : "number");
-    }
-    return message;
-}
-
 /// What the parser refuses, said as every other error is.
 std::string refusal(const CLI::App& app, const CLI::Error& error, const std::string& first_word) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
@@ -63,7 +52,6 @@ std::string refusal(const CLI::App& app, const CLI::Error& error, const std::str
         const auto option = std::find_if(left.begin(), left.end(), [](const std::string& w) { return w[0] == '-'; });
         if (dynamic_cast<const CLI::ExtrasError*>(&error) && !left.empty())
             what = not_expected(*chosen.front(), option == left.end() ? left.front() : *option);
-        if (dynamic_cast<const CLI::ConversionError*>(&error)) what = not_converted(*chosen.front(), what);
     }
     return "ribvault: " + what + "; see " + command + " --help\n";
 }

@@ -59,7 +59,7 @@ std::function<int()> add_page(CLI::App& app) {
     command->add_option("beside", written->beside, "another one, to be shown beside it")->type_name("FILE");
     add_output(command, "-o,--output", written->page, "page to write")->required();
     add_rules(command, written->rules);
-    command->add_option("--threads", written->rules.threads, "0: all processors")->check(CLI::Range(0, 1024));
+    add_whole(command, "--threads", written->rules.threads, "0: all processors", 0, 1024);
     command->add_flag("--quiet", written->quiet, "print errors only");
     return [written, command] { return run(*written, *command); };
 }

@@ -79,9 +79,17 @@ void add_tracks(CLI::App* command, TrackSettings& t) {
                "what something stands on)");
     add_length(group, "--resolution", t.resolution,
                "tool paths follow slices within this (default 0.005; 0: every vertex)");
-    add_length(group, "--first-layer-width", t.first_layer_width,
-               "of perimeters and covers on layer 0 (default: the nozzle)");
-    group->add_option("--skirt", t.skirt_loops, "loops around the first layer (default 0)");
+    group
+        ->add_option_function<std::string>(
+            "--first-layer-width",
+            [&t](const std::string& text) {
+                t.first_layer_width = parse_length(text, "--first-layer-width");
+                if (t.first_layer_width == 0)
+                    throw Error(ErrorKind::usage, "--first-layer-width is 0; leave it out for the nozzle's width");
+            },
+            "of perimeters and covers on layer 0 (default: the nozzle)")
+        ->type_name("MM");
+    add_whole(group, "--skirt", t.skirt_loops, "loops around the first layer (default 0)");
     add_length(group, "--skirt-distance", t.skirt_distance, "from the object to the skirt (default 3)");
     add_length(group, "--brim", t.brim_width, "width of the brim on the first layer (default 0)");
 }
@@ -92,32 +100,45 @@ void add_printer(CLI::App* command, PrinterSettings& p) {
         group, "--flavour", p.flavour,
         {{"marlin", Flavour::marlin}, {"klipper", Flavour::klipper}, {"reprapfirmware", Flavour::reprapfirmware}},
         "whose G-code it is (default marlin)");
-    group->add_option("--filament-diameter", p.filament_diameter, "mm")->capture_default_str();
-    group->add_option("--temperature", p.nozzle_temperature, "nozzle, degrees C")->capture_default_str();
-    group->add_option("--bed-temperature", p.bed_temperature, "degrees C")->capture_default_str();
-    group
-        ->add_option("--support-extruder", p.support_extruder, "tool that prints external supports; T0 prints all else")
-        ->capture_default_str();
-    group->add_option("--support-temperature", p.support_temperature, "of that tool, degrees C; 0: as --temperature")
-        ->capture_default_str();
-    group->add_option("--fan", p.fan_percent, "from the second layer on, percent")->capture_default_str();
-    group->add_option("--print-speed", p.print_speed, "perimeters and covers, mm/s")->capture_default_str();
-    group->add_option("--support-speed", p.support_speed, "supports, mm/s")->capture_default_str();
-    group->add_option("--first-layer-speed", p.first_layer_speed, "mm/s")->capture_default_str();
-    group->add_option("--min-layer-time", p.min_layer_time, "s; a layer that would take less is printed slower")
-        ->capture_default_str();
-    group->add_option("--min-print-speed", p.min_print_speed, "mm/s; but not slower than this")->capture_default_str();
-    group->add_option("--travel-speed", p.travel_speed, "mm/s")->capture_default_str();
-    group->add_option("--retraction", p.retraction, "mm of filament")->capture_default_str();
-    group->add_option("--retraction-speed", p.retraction_speed, "mm/s")->capture_default_str();
-    group->add_option("--retract-over", p.retract_over, "mm of open air under a travel from which it retracts")
-        ->capture_default_str();
-    group->add_option("--longest-detour", p.longest_detour, "mm that a travel may be longer to stay inside the shell")
-        ->capture_default_str();
-    group->add_option("--prime-surplus", p.prime_surplus, "share of the retraction added before support paths")
-        ->capture_default_str();
-    group->add_option("--surplus-clearance", p.surplus_clearance, "mm from a perimeter within which it is not")
-        ->capture_default_str();
+    const auto number = [&](const std::string& option, double& target, const std::string& help) {
+        add_decimal(group, option, target, help)->default_str(CLI::detail::to_string(target));
+    };
+    const auto whole = [&](const std::string& option, int& target, const std::string& help) {
+        add_whole(group, option, target, help)->default_str(CLI::detail::to_string(target));
+    };
+    // Whoever names one temperature means it from the first layer on.
+    const auto temperature = [&](const std::string& option, int& target, int& first_layer, const std::string& help) {
+        group
+            ->add_option_function<std::string>(
+                option,
+                [&target, &first_layer, option](const std::string& text) {
+                    target = whole_in(text, option);
+                    first_layer = 0;
+                },
+                help)
+            ->type_name("INT")
+            ->default_str(CLI::detail::to_string(target));
+    };
+    number("--filament-diameter", p.filament_diameter, "mm");
+    temperature("--temperature", p.nozzle_temperature, p.first_layer_temperature, "nozzle, degrees C");
+    temperature("--bed-temperature", p.bed_temperature, p.first_layer_bed_temperature, "degrees C");
+    whole("--first-layer-temperature", p.first_layer_temperature, "nozzle on layer 0; 0: as --temperature");
+    whole("--first-layer-bed-temperature", p.first_layer_bed_temperature, "0: as --bed-temperature");
+    whole("--support-extruder", p.support_extruder, "tool that prints external supports; T0 prints all else");
+    whole("--support-temperature", p.support_temperature, "of that tool, degrees C; 0: as --temperature");
+    number("--fan", p.fan_percent, "from the second layer on, percent");
+    number("--print-speed", p.print_speed, "perimeters and covers, mm/s");
+    number("--support-speed", p.support_speed, "supports, mm/s");
+    number("--first-layer-speed", p.first_layer_speed, "mm/s");
+    number("--min-layer-time", p.min_layer_time, "s; a layer that would take less is printed slower");
+    number("--min-print-speed", p.min_print_speed, "mm/s; but not slower than this");
+    number("--travel-speed", p.travel_speed, "mm/s");
+    number("--retraction", p.retraction, "mm of filament");
+    number("--retraction-speed", p.retraction_speed, "mm/s");
+    number("--retract-over", p.retract_over, "mm of open air under a travel from which it retracts");
+    number("--longest-detour", p.longest_detour, "mm that a travel may be longer to stay inside the shell");
+    number("--prime-surplus", p.prime_surplus, "share of the retraction added before support paths");
+    number("--surplus-clearance", p.surplus_clearance, "mm from a perimeter within which it is not");
     group->add_option("--thumbnails", p.thumbnails, "pictures in the G-code, WxH[,WxH]; none: no picture")
         ->capture_default_str();
 }

@@ -55,10 +55,9 @@ std::function<int()> add_verify(CLI::App& app) {
                    "in the report, the exact boundary of every unsupported region, as lines and arcs")
         ->needs(report);
     add_output(output, "--svg", w.svg, "folder for pictures of the worst layers", "DIR");
-    output->add_option("--pictures", w.job.pictures, "how many of them at most (default 12)")
-        ->check(CLI::Range(0, 100000));
+    add_whole(output, "--pictures", w.job.pictures, "how many of them at most (default 12)", 0, 100000);
     add_output(output, "--html", w.html, "page to look at every layer, in one file");
-    output->add_option("--threads", w.job.threads, "0: all processors")->check(CLI::Range(0, 1024));
+    add_whole(output, "--threads", w.job.threads, "0: all processors", 0, 1024);
     output->add_flag("--quiet", w.quiet, "print errors only");
     return [written] { return run(*written); };
 }

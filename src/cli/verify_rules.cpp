@@ -1,5 +1,6 @@
 #include "cli/verify_rules.hpp"
 
+#include "cli/commands.hpp"
 #include "ribvault/error.hpp"
 
 namespace ribvault::cli {
@@ -49,15 +50,15 @@ void add_rules(CLI::App* command, VerifyJob& job) {
         "judge only what lies inside the outline (closed outer perimeters) of the layer below, not external overhangs");
     add_number(rule, "--support-gap", job.support_gap,
                "what lies this far from the object's tracks, and half a nozzle, counts as held up by them");
-    rule->add_option("--support-gap-layers", job.support_gap_layers,
-                     "the object may lie on material so many layers farther down (default 0)");
+    add_whole(rule, "--support-gap-layers", job.support_gap_layers,
+              "the object may lie on material so many layers farther down (default 0)");
     rule->add_flag("--bed-only", job.bed_only, "supports must lie on supports, not on the object");
     const auto reading = command->add_option_group("Reading");
     add_number(reading, "--filament-diameter", job.filament_diameter,
                "for widths that the file does not give (default: as the file says, else 1.75)");
     add_number(reading, "--layer-height", job.layer_height, "where the file does not tell it");
-    reading->add_option("--infill-layers", job.infill_layers,
-                        "how many layers thick infill is, where the file does not tell its height (default 1)");
+    add_whole(reading, "--infill-layers", job.infill_layers,
+              "how many layers thick infill is, where the file does not tell its height (default 1)");
 }
 
 }  // namespace ribvault::cli

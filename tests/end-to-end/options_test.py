@@ -116,6 +116,18 @@ class Options(unittest.TestCase):
             compared += 1
         self.assertGreater(compared, 40)
 
+    def test_numbers_are_decimal(self):
+        report = self.folder / "a.json"
+        subprocess.run([PROGRAM, "generate", CUBE, "--report", report, "--quiet", "--temperature", "0205", "--perimeters", "010", "--fan", "050",
+                        "--threads", "01"], check=True)
+        read = json.loads(report.read_text())
+        self.assertEqual((read["printer"]["nozzle_temperature_c"], read["settings"]["perimeters"], read["printer"]["fan_percent"]), (205, 10, 50))
+        report.unlink()
+        for name, value in (("--perimeters", "0x2"), ("--temperature", "0xC8"), ("--fan", "0x10"), ("--bed", "0x10,0x10,200"), ("--threads", "0x1"),
+                            ("--threads", "1025"), ("--skirt", "1e1"), ("--bed", "250,250"), ("--bed", "250,250,250,"),
+                            ("--bed-corner", "1,2,3"), ("--first-layer-width", "0")):
+            self.assertIn(name, self.refused("generate", CUBE, name, value))
+
     def test_what_has_no_effect_is_refused(self):
         for arguments in (["--no-shrink"], ["--no-trim"], ["--no-doubling"], ["--strategy", "thrifty", "--no-straighten"],
                           ["--strategy", "thrifty", "--straighten-step", "0.1"], ["--skirt-distance", "2"], ["--support-extruder", "1"], ["--support-temperature", "210"], ["--wall-lines-longer", "3"], ["--wall-lines-taller", "3"],

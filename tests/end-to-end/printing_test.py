@@ -159,6 +159,16 @@ class Printing(unittest.TestCase):
         advised = re.search(r"use --scale (\S+) or less", done.stderr).group(1)
         self.assertEqual(self.run_program("--printer", "microdelta", "--scale", advised).returncode, 0)
 
+    def test_the_temperature_that_is_written_holds_from_the_first_layer_on(self):
+        (self.folder / "mine.ini").write_text(TEMPERATURES + "first_layer_temperature = 210\n")
+        self.assertIn("M104 S200 ;", self.gcode("--profile", "mine.ini")[0].split(";LAYER:1")[1])
+        text, _ = self.gcode("--profile", "mine.ini", "--temperature", "190")
+        self.assertIn("M109 S190", text)
+        self.assertNotIn("M104", text.split(";LAYER:1")[1].split("; end of print")[0])
+        text, _ = self.gcode("--profile", "mine.ini", "--temperature", "190", "--first-layer-temperature", "195")
+        self.assertIn("M109 S195", text)
+        self.assertIn("M104 S190 ;", text.split(";LAYER:1")[1])
+
     def test_a_tool_that_prints_nothing_stays_cold(self):
         self.assertNotIn("T2", self.gcode("--support", "both", "--support-extruder", "2", "--thumbnails", "none")[0])
 
