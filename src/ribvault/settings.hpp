@@ -152,7 +152,7 @@ struct PrinterSettings {
     bool write_limits = false;
     std::string file_header;          ///< the very first lines of the file
     std::string start_gcode = "G28 ; home\n";
-    std::string end_gcode = "G91\nG0 Z5 F600 ; off the print\nG90\n";
+    std::string end_gcode = "G90\nG0 Z{park_z} F600 ; off the print\n";
     std::string thumbnails = "220x124";  ///< sizes of pictures in the file, W x H, separated by commas; empty: none
 
     std::array<double, 2> corner_of_bed() const {

@@ -159,6 +159,15 @@ class Printing(unittest.TestCase):
         advised = re.search(r"use --scale (\S+) or less", done.stderr).group(1)
         self.assertEqual(self.run_program("--printer", "microdelta", "--scale", advised).returncode, 0)
 
+    def test_nothing_goes_higher_than_the_printer(self):
+        self.assertEqual(self.run_program("--height", "20.09", "--bed", "100,100,20.1", "--layer-height", "0.1").returncode, 0)
+        heights = [float(z) for z in re.findall(r"^G\d [^;]*Z([0-9.]+)", (self.folder / "a.gcode").read_text(), re.M)]
+        self.assertEqual(max(heights), 20.1)
+        self.assertEqual(self.run_program("--height", "20.09", "--bed", "100,100,20.09", "--layer-height", "0.49").returncode, 0)
+        done = self.run_program("--height", "20", "--bed", "100,100,20", "--layer-height", "0.3")
+        self.assertEqual(done.returncode, 5)
+        self.assertIn("20.1 mm", done.stderr)
+
     def test_the_temperature_that_is_written_holds_from_the_first_layer_on(self):
         (self.folder / "mine.ini").write_text(TEMPERATURES + "first_layer_temperature = 210\n")
         self.assertIn("M104 S200 ;", self.gcode("--profile", "mine.ini")[0].split(";LAYER:1")[1])

@@ -68,6 +68,19 @@ TEST_CASE("placed meshes stand on the bed exactly, in its middle, whatever the t
         }
 }
 
+TEST_CASE("a model as high, wide and deep as the bed fits, whatever double its decimals are") {
+    for (const double side : {20.09, 20.1, 33.33333, 149.99999}) {
+        PlacementOptions options;
+        options.bed_x = options.bed_y = options.bed_z = side;
+        options.height_mm = Rational(round_to_lattice(side * units_per_mm), units_per_mm);
+        options.height_mm->canonicalize();
+        Mesh cube = weld(box({0, 0, 0}, {1, 1, 1}));
+        CHECK_NOTHROW(place(cube, options));
+        *options.height_mm += Rational(1, units_per_mm);
+        check_refused(cube, options, ErrorKind::does_not_fit, "the bed");
+    }
+}
+
 TEST_CASE("the option --height is met exactly") {
     for (const char up : {'x', 'y', 'z'})
         for (const int degrees : {0, 90, 45}) {

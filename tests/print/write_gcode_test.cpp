@@ -651,3 +651,18 @@ TEST_CASE("the first layer's temperatures are those of the header, the others co
     CHECK(gcode_header({}, {}, printer, {}).find("\nSTART T=205 B=60\n") != std::string::npos);
     CHECK(gcode_header({}, {}, printer, {}).find("M109") == std::string::npos);
 }
+
+TEST_CASE("after the print the nozzle rises no higher than the printer is, and parks on its bed") {
+    PrinterSettings printer;
+    PrintFacts facts;
+    facts.height_mm = 100;
+    CHECK(gcode_footer({}, printer, facts).find("\nG90\nG0 Z105 F600") != std::string::npos);
+    facts.height_mm = 248;
+    CHECK(gcode_footer({}, printer, facts).find("\nG90\nG0 Z250 F600") != std::string::npos);
+    printer.end_gcode = "G0 X{bed_min_x} Y{bed_max_y}\n";
+    CHECK(gcode_footer({}, printer, facts).find("\nG0 X0 Y250\n") != std::string::npos);
+    printer.bed_corner = {3, -5};
+    CHECK(gcode_footer({}, printer, facts).find("\nG0 X3 Y245\n") != std::string::npos);
+    printer.bed_corner = {}, printer.origin_at_centre = true;
+    CHECK(gcode_footer({}, printer, facts).find("\nG0 X-125 Y125\n") != std::string::npos);
+}

@@ -149,7 +149,7 @@ Placement place(Mesh& mesh, const PlacementOptions& options) {
 
     Size size;
     for (std::size_t k = 0; k < 3; ++k) size[k] = placement.scale * extent[k];
-    check_size(size, {Rational(options.bed_x), Rational(options.bed_y), Rational(options.bed_z)}, placement.scale,
+    check_size(size, {on_lattice(options.bed_x), on_lattice(options.bed_y), on_lattice(options.bed_z)}, placement.scale,
                options.round_bed, options.height_mm.has_value());
 
     const std::array<double, 2> middle{options.bed_corner[0] + options.bed_x / 2,

@@ -5,6 +5,8 @@
 #include <cstdio>
 
 #include "ribvault/error.hpp"
+#include "ribvault/exact/rational.hpp"
+#include "ribvault/print/gcode_text.hpp"
 #include "ribvault/print/skirt.hpp"
 
 namespace ribvault {
@@ -66,6 +68,14 @@ void check_bed(const Mesh& mesh, const Placement& placement, const Settings& set
     }
     if (2 * (x + reach) > printer.bed_x + rounding) refuse(2 * (x + reach), printer.bed_x, " in x", reach);
     if (2 * (y + reach) > printer.bed_y + rounding) refuse(2 * (y + reach), printer.bed_y, " in y", reach);
+}
+
+void check_height(int layers, const Settings& settings, const PrinterSettings& printer) {
+    if (const Unit top = settings.top_of(layers - 1); top > round_to_lattice(printer.bed_z * units_per_mm))
+        throw Error(ErrorKind::does_not_fit, "the last layer ends at " + millimetres(top) + " mm and the printer is " +
+                                                 decimal_text(printer.bed_z) +
+                                                 " mm high; make the layers thinner, or scale the model down with "
+                                                 "--scale or --height");
 }
 
 }  // namespace ribvault

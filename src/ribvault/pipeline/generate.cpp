@@ -103,6 +103,7 @@ private:
             job_.warn(job_.model.string() + " is only " + fixed(size[0], 2) + " x " + fixed(size[1], 2) + " x " +
                       fixed(size[2], 2) + " mm; is it in inches (--scale 25.4) or metres (--scale 1000)?");
         const Settings& settings = job_.settings;
+        check_height(slicer.layer_count(), settings, job_.printer);
         const auto warn_if_higher = [&](const char* what, Unit height, Unit width) {
             if (height > width)
                 job_.warn(what + millimetres(height) + " mm high, more than its tracks are wide (" +

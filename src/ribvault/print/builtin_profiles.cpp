@@ -31,9 +31,8 @@ start_gcode = G1 Z15 F9000
 start_gcode = G92 E0
 start_gcode = G1 F200 E10 ; fill the nozzle
 start_gcode = G92 E0
-end_gcode = G91
-end_gcode = G0 Z5 F600
 end_gcode = G90
+end_gcode = G0 Z{park_z} F600
 end_gcode = G28 X0 Y0
 )"},
         // The firmware refuses files without this header.
@@ -75,9 +74,8 @@ file_header = ;END_OF_HEADER
 start_gcode = T0
 start_gcode = G92 E0
 start_gcode = G280 S1 ; prime
-end_gcode = G91
-end_gcode = G0 Z5 F600
 end_gcode = G90
+end_gcode = G0 Z{park_z} F600
 thumbnails =
 )"},
         {"prima-p120", R"(name = Prima P120
@@ -112,10 +110,9 @@ retract_acceleration = 1000
 max_speed = 500,500,10,50
 max_acceleration = 500,500,100,5000
 jerk = 8,8,0.4,5
-end_gcode = G91
-end_gcode = G0 Z5 F600
 end_gcode = G90
-end_gcode = G0 X0 Y290 F6000 ; the print comes forward
+end_gcode = G0 Z{park_z} F600
+end_gcode = G0 X{bed_min_x} Y{bed_max_y} F6000 ; the print comes forward
 )"},
         {"microdelta", R"(name = eMotion Tech MicroDelta Rework
 flavour = marlin

@@ -77,6 +77,12 @@ std::string value_of(const std::string& name, const Settings& s, const PrinterSe
     if (name == "bed_x") return decimal_text(p.bed_x);
     if (name == "bed_y") return decimal_text(p.bed_y);
     if (name == "bed_z") return decimal_text(p.bed_z);
+    const std::array<double, 2> corner = p.corner_of_bed();
+    if (name == "bed_min_x") return decimal_text(corner[0]);
+    if (name == "bed_min_y") return decimal_text(corner[1]);
+    if (name == "bed_max_x") return decimal_text(corner[0] + p.bed_x);
+    if (name == "bed_max_y") return decimal_text(corner[1] + p.bed_y);
+    if (name == "park_z") return decimal_text(std::min(f.height_mm + 5, p.bed_z));
     if (name == "retraction") return decimal_text(p.retraction);
     if (name == "travel_speed") return decimal_text(p.travel_speed);
     if (name == "printer") return p.name;
