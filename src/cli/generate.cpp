@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <optional>
@@ -24,7 +25,7 @@ struct Written {
     bool no_shrink = false, no_trim = false, no_doubling = false;
     bool no_straighten = false, no_branch_bonus = false, quiet = false;
     std::string rotate, up = "z";
-    std::string imported_from, imported;  ///< the file; what was taken from it, for people
+    Imported imported;
 };
 
 std::uint64_t parse_seed(const std::string& text) {
@@ -242,7 +243,7 @@ void complete(Written& w) {
 int run(Written& w, const CLI::App& command) {
     refuse_without_effect(w, command);
     complete(w);
-    if (!w.quiet && !w.imported.empty()) std::fprintf(stderr, "%s\n", w.imported.c_str());
+    if (!w.quiet && !w.imported.file.empty()) std::fprintf(stderr, "%s\n", w.imported.summary.c_str());
     Progress progress(w.quiet);
     w.job.progress = [&](int done, int total) { progress(done, total); };
     w.job.stop = interrupted;
@@ -259,9 +260,12 @@ int run(Written& w, const CLI::App& command) {
             return generate(w.job);
         } catch (const Error& error) {
             // The message may name an option that nobody gave.
-            if (error.kind() != ErrorKind::usage || w.imported_from.empty()) throw;
-            throw Error(error.kind(),
-                        std::string(error.what()) + " (settings were imported from " + w.imported_from + ")");
+            if (error.kind() != ErrorKind::usage || w.imported.file.empty()) throw;
+            const std::string message = error.what();
+            const auto doubt = std::find_if(w.imported.doubts.begin(), w.imported.doubts.end(),
+                                            [&](const ImportDoubt& d) { return d.message == message; });
+            throw Error(error.kind(), (doubt != w.imported.doubts.end() ? doubt->where + ": " : std::string()) +
+                                          message + " (settings were imported from " + w.imported.file + ")");
         }
     }();
     progress.clear();
@@ -287,8 +291,7 @@ std::function<int()> add_generate(CLI::App& app) {
     add_output(command, "--html", written->html, "page to look at the whole run, in one file");
     add_whole(command, "--threads", written->job.threads, "0: all processors", 0, 1024);
     command->add_flag("--quiet", written->quiet, "print errors only");
-    add_profiles(command, written->job, written->first_layer_height, written->imported_from,
-                 written->imported);
+    add_profiles(command, written->job, written->first_layer_height, written->imported);
     add_geometry(command, *written);
     add_tracks(command, written->job.tracks);
     add_placement(command, *written);

@@ -2,7 +2,6 @@
 
 #include "ribvault/error.hpp"
 #include "ribvault/input_stream.hpp"
-#include "ribvault/print/import_prusaslicer.hpp"
 #include "ribvault/print/printer_profile.hpp"
 
 namespace ribvault::cli {
@@ -14,22 +13,22 @@ std::string text_of(const std::string& file) {
     return text;
 }
 
-/// What was imported, in words.
-std::string import(const std::string& file, Job& job, std::optional<Unit>& first_layer_height) {
+Imported import(const std::string& file, Job& job, std::optional<Unit>& first_layer_height) {
     Settings& s = job.settings;
     s.first_layer_height = 0;
     const ImportedConfig imported = import_prusaslicer(text_of(file), file, s, job.tracks, job.printer);
     if (s.first_layer_height > 0) first_layer_height = s.first_layer_height;
     std::string list;
     for (const std::string& key : imported.ignored) (list += list.empty() ? "" : ", ") += key;
-    return file + ": " + std::to_string(imported.taken.size()) + " settings taken, " +
-           std::to_string(imported.ignored.size()) + " ignored" + (list.empty() ? "" : ": ") + list;
+    const std::string summary = file + ": " + std::to_string(imported.taken.size()) + " settings taken, " +
+                                std::to_string(imported.ignored.size()) + " ignored" + (list.empty() ? "" : ": ") +
+                                list;
+    return {file, summary, imported.doubts};
 }
 
 }  // namespace
 
-void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_height, std::string& from,
-                  std::string& imported) {
+void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_height, Imported& imported) {
     std::string names;
     for (const BuiltinProfile& profile : builtin_profiles()) (names += names.empty() ? "" : ", ") += profile.name;
     const auto printer = command
@@ -47,14 +46,17 @@ void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_
                                  "a printer profile (docs/printing.md)")
                              ->type_name("FILE")
                              ->excludes(printer);
-    command->add_option_function<std::string>(
-        "--import",
-        [&job, &first_layer_height, &from, &imported](const std::string& file) {
-            from = file;
-            job.settings_files.emplace_back(file);
-            imported = import(file, job, first_layer_height);
-        },
-        "a PrusaSlicer config or bundle (.ini)")->type_name("FILE")->excludes(printer)->excludes(profile);
+    command
+        ->add_option_function<std::string>(
+            "--import",
+            [&job, &first_layer_height, &imported](const std::string& file) {
+                job.settings_files.emplace_back(file);
+                imported = import(file, job, first_layer_height);
+            },
+            "a PrusaSlicer config or bundle (.ini)")
+        ->type_name("FILE")
+        ->excludes(printer)
+        ->excludes(profile);
 }
 
 void add_tracks(CLI::App* command, TrackSettings& t) {

@@ -144,6 +144,7 @@ class Printing(unittest.TestCase):
         (self.folder / "prusa.ini").write_text("perimeters = 0\nthumbnails = big\n")
         done = self.run_program("--import", "prusa.ini", "--thumbnails", "none")
         self.assertEqual(done.returncode, 2)
+        self.assertIn("prusa.ini:1: perimeters: ", done.stderr)
         self.assertIn("imported from prusa.ini", done.stderr)
         self.assertEqual(self.run_program("--import", "prusa.ini", "--thumbnails", "none", "--perimeters", "1").returncode, 0)
         done = self.run_program("--import", "prusa.ini", "--thumbnails", "none", "--perimeters", "1", "--quiet")

@@ -212,6 +212,26 @@ TEST_CASE("PrusaSlicer's temperatures of the first layer, and its fan without co
     CHECK(imported(fan).min_layer_time == 9);
 }
 
+TEST_CASE("limits of 0 are PrusaSlicer's way to leave them open; what cannot be is named with its line") {
+    Settings s;
+    TrackSettings t;
+    PrinterSettings p;
+    const ImportedConfig open = import_prusaslicer(
+        "perimeters = 2\nmachine_max_jerk_e = 0,0\nmachine_max_acceleration_travel = 0,0\n"
+        "machine_max_feedrate_x = 0\nmachine_max_acceleration_y = 0\n",
+        "c.ini", s, t, p);
+    CHECK_NOTHROW(check_printer(p));
+    CHECK(open.ignored.size() == 4);
+    CHECK(open.doubts.empty());
+    const ImportedConfig odd = import_prusaslicer(
+        "nozzle_diameter = 0.3\nlayer_height = 0.2\ntravel_speed = 1e6\nskirts = 1000\ntemperature = 210\n", "c.ini", s,
+        t, p);
+    REQUIRE(odd.doubts.size() == 2);
+    CHECK(odd.doubts[0].where == "c.ini:4: skirts");
+    CHECK(odd.doubts[1].where == "c.ini:3: travel_speed");
+    CHECK_THROWS_WITH(check_printer(p), odd.doubts[1].message);
+}
+
 TEST_CASE("beds of PrusaSlicer: where their corner is; discs; of other shapes a rectangle that lies on them") {
     const auto bed = [](const std::string& shape, std::vector<std::string>* ignored = nullptr) {
         Settings s;

@@ -11,6 +11,7 @@
 
 #include "ribvault/error.hpp"
 #include "ribvault/exact/rational.hpp"
+#include "ribvault/print/gcode_header.hpp"
 #include "ribvault/print/gcode_text.hpp"
 #include "ribvault/print/ini.hpp"
 
@@ -163,12 +164,14 @@ using Field = std::function<void(Target, const std::string&)>;
 Field printer_number(double PrinterSettings::*member) {
     return [member](Target to, const std::string& v) { to.p.*member = number(v); };
 }
+/// Of what 0 leaves open.
+double more_than_0(const std::string& v) {
+    const double value = number(v);
+    if (value == 0) throw Ignored{"0: left to the slicer"};
+    return value;
+}
 Field speed(double PrinterSettings::*member) {
-    return [member](Target to, const std::string& v) {
-        const double value = number(v);
-        if (value == 0) throw Ignored{"0: left to the slicer"};
-        to.p.*member = value;
-    };
+    return [member](Target to, const std::string& v) { to.p.*member = more_than_0(v); };
 }
 Field temperature(int PrinterSettings::*member) {
     return [member](Target to, const std::string& v) { to.p.*member = whole(v); };
@@ -263,20 +266,22 @@ const std::map<std::string, Field>& fields() {
             {"end_gcode", [](Target to, const std::string& v) { take_gcode(to.p.end_gcode, v); }},
             {"machine_limits_usage", [](Target to, const std::string& v) { to.p.write_limits = v == "emit_to_gcode"; }},
             {"machine_max_acceleration_extruding",
-             [](Target to, const std::string& v) { to.p.limits.print_acceleration = number(v); }},
+             [](Target to, const std::string& v) { to.p.limits.print_acceleration = more_than_0(v); }},
             {"machine_max_acceleration_retracting",
-             [](Target to, const std::string& v) { to.p.limits.retract_acceleration = number(v); }},
+             [](Target to, const std::string& v) { to.p.limits.retract_acceleration = more_than_0(v); }},
             {"machine_max_acceleration_travel",
-             [](Target to, const std::string& v) { to.p.limits.travel_acceleration = number(v); }}};
+             [](Target to, const std::string& v) { to.p.limits.travel_acceleration = more_than_0(v); }}};
         for (std::size_t a = 0; a < 4; ++a) {
             const std::string axis(1, "xyze"[a]);
             f["machine_max_feedrate_" + axis] = [a](Target to, const std::string& v) {
-                to.p.limits.speed[a] = number(v);
+                to.p.limits.speed[a] = more_than_0(v);
             };
             f["machine_max_acceleration_" + axis] = [a](Target to, const std::string& v) {
-                to.p.limits.acceleration[a] = number(v);
+                to.p.limits.acceleration[a] = more_than_0(v);
             };
-            f["machine_max_jerk_" + axis] = [a](Target to, const std::string& v) { to.p.limits.jerk[a] = number(v); };
+            f["machine_max_jerk_" + axis] = [a](Target to, const std::string& v) {
+                to.p.limits.jerk[a] = more_than_0(v);
+            };
         }
         return f;
     }();
@@ -337,6 +342,24 @@ ImportedConfig import_prusaslicer(std::string_view text, const std::string& name
     ImportedConfig imported;
     for (const std::string& section : chosen.missing)
         imported.ignored.push_back("[" + section + "] (named, but not in the file)");
+    // What the check says of a value alone, beside what fits the nozzle.
+    const auto doubt = [&](const Field& field, const std::string& value) -> std::string {
+        Settings s;
+        TrackSettings t;
+        PrinterSettings p;
+        s.nozzle = settings.nozzle, s.support_radius = s.erosion_step = s.straighten_step = s.nozzle / 2;
+        s.branch_bonus_length = 2 * s.nozzle, s.pillar_length = 10 * s.nozzle, s.sampling_pitch = s.nozzle / 4;
+        try {
+            field({s, t, p}, value);
+        } catch (const Ignored&) {  // in part: the rest is taken
+        }
+        try {
+            s.check(), t.check(s.nozzle), check_printer(p);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return {};
+    };
     const auto take = [&](const std::string& key, const IniEntry& entry) {
         const auto field = fields().find(key);
         if (field == fields().end()) {
@@ -351,6 +374,8 @@ ImportedConfig import_prusaslicer(std::string_view text, const std::string& name
         } catch (const Error& error) {
             throw Error(ErrorKind::usage, name + ":" + std::to_string(entry.line) + ": " + key + ": " + error.what());
         }
+        if (const std::string message = doubt(field->second, entry.value); !message.empty())
+            imported.doubts.push_back({message, name + ":" + std::to_string(entry.line) + ": " + key});
     };
     if (const auto nozzle = last.find("nozzle_diameter"); nozzle != last.end())
         take(nozzle->first, nozzle->second);  // others depend on it
