@@ -34,6 +34,22 @@ TEST_CASE("brim: loops around every island from the outside in, the last touches
     CHECK(reach_of_skirt_and_brim({}, tracks) == 2 * mm);
 }
 
+TEST_CASE("a brim narrower than half a track is one loop; loops around a fine outline have no fine chords") {
+    TrackSettings tracks;
+    tracks.brim_width = 100;
+    CHECK(skirt_and_brim(two, {}, tracks).size() == 2);
+    CHECK(reach_of_skirt_and_brim({}, tracks) == 40000);
+    Contour round;
+    for (int k = 0; k < 6000; ++k)  // chords of 10 µm
+        round.push_back({round_to_lattice(10 * mm * std::cos(k * std::acos(-1.0) / 3000)),
+                         round_to_lattice(10 * mm * std::sin(k * std::acos(-1.0) / 3000))});
+    const std::vector<ToolPath> loops = skirt_and_brim({round}, {}, tracks);
+    REQUIRE(loops.size() == 1);
+    CHECK(loops[0].points.size() < 200);
+    CHECK(std::abs(length(loops[0]) / mm - 20.4 * std::acos(-1.0)) < 0.05);
+    for (Point p : loops[0].points) CHECK(std::abs(std::hypot(p.x, p.y) - 1020000) < 1100);
+}
+
 TEST_CASE("skirt: loops around everything at its distance") {
     TrackSettings tracks;
     tracks.skirt_loops = 2;

@@ -4,13 +4,18 @@
 
 #include "ribvault/exact/predicates.hpp"
 #include "ribvault/print/drop_tiny_steps.hpp"
+#include "ribvault/print/simplify.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
 
 namespace ribvault {
 namespace {
 
+constexpr double arc_tolerance = 400;  // lattice units, 4 µm (9 where a corner has one chord)
+
+/// The nearest number; but a brim that is asked for has a loop.
 int brim_loops(Unit width, const TrackSettings& tracks) {
-    return static_cast<int>((tracks.brim_width + width / 2) / width);
+    const auto loops = static_cast<int>((tracks.brim_width + width / 2) / width);
+    return tracks.brim_width > 0 ? std::max(1, loops) : 0;
 }
 
 /// The convex hull of all contours, counter-clockwise (Andrew's chains; exact).
@@ -34,8 +39,8 @@ Contour hull_of(const Region& region) {
 }
 
 /// Loops at a distance around outer contours; those around holes lie inside them and are left out.
-void append_loops(const Region& around, double distance, Unit width, std::vector<ToolPath>& paths) {
-    for (Contour& loop : offset(around, distance, ClipperLib::jtRound, 250))
+void append_loops(const Region& around, double distance, Unit width, Unit resolution, std::vector<ToolPath>& paths) {
+    for (Contour& loop : simplify(offset(around, distance, ClipperLib::jtRound, arc_tolerance), resolution))
         if (signed_area({loop}) > 0) paths.push_back({TrackKind::skirt, width, true, std::move(loop)});
 }
 
@@ -44,9 +49,10 @@ void append_loops(const Region& around, double distance, Unit width, std::vector
 std::vector<ToolPath> skirt_and_brim(const Region& object, const Settings& settings, const TrackSettings& tracks,
                                      const std::vector<Segment>& supports) {
     std::vector<ToolPath> paths;
-    const Region outline = supports.empty() ? object
-                                            : clip(ClipperLib::ctUnion, object,
-                                                   offset(supports, static_cast<double>(settings.nozzle) / 2, 250));
+    const Region outline = supports.empty()
+                               ? object
+                               : clip(ClipperLib::ctUnion, object,
+                                      offset(supports, static_cast<double>(settings.nozzle) / 2, arc_tolerance));
     const Unit w = tracks.width_on(0, settings.nozzle);
     const double width = static_cast<double>(w);
     const int brim = brim_loops(w, tracks);
@@ -54,9 +60,10 @@ std::vector<ToolPath> skirt_and_brim(const Region& object, const Settings& setti
     if (tracks.skirt_loops > 0) {
         const Region hull{hull_of(outline)};
         for (int k = tracks.skirt_loops; k-- > 0;)
-            append_loops(hull, brim * width + static_cast<double>(tracks.skirt_distance) + (k + 0.5) * width, w, paths);
+            append_loops(hull, brim * width + static_cast<double>(tracks.skirt_distance) + (k + 0.5) * width, w,
+                         tracks.resolution, paths);
     }
-    for (int k = brim; k-- > 0;) append_loops(outline, (k + 0.5) * width, w, paths);
+    for (int k = brim; k-- > 0;) append_loops(outline, (k + 0.5) * width, w, tracks.resolution, paths);
     for (ToolPath& path : paths) drop_tiny_steps(path);
     return paths;
 }
