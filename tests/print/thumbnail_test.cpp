@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <png.h>
 #include <sstream>
+#include <utility>
 
 #include "ribvault/error.hpp"
 #include "ribvault/print/thumbnail.hpp"
@@ -41,6 +42,28 @@ TEST_CASE("a thumbnail is a PNG of its size with the model in its middle and not
     CHECK(pixels[4 * (15 * 40 + 20) + 3] == 255);
     CHECK(pixels[3] == 0);
     CHECK_NOTHROW(thumbnail_png({}, 16, 16));
+}
+
+TEST_CASE("what lies flat is brighter than what stands, whichever way its triangles turn") {
+    const auto green_of = [](std::vector<std::array<Corner, 3>> triangles, bool turned) {
+        if (turned)
+            for (auto& t : triangles) std::swap(t[1], t[2]);
+        const std::string png = thumbnail_png(triangles, 40, 40);
+        png_image image{};
+        image.version = PNG_IMAGE_VERSION;
+        REQUIRE(png_image_begin_read_from_memory(&image, png.data(), png.size()));
+        image.format = PNG_FORMAT_RGBA;
+        std::vector<png_byte> pixels(PNG_IMAGE_SIZE(image));
+        REQUIRE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr));
+        return pixels[4 * (20 * 40 + 20) + 1];
+    };
+    const std::vector<std::array<Corner, 3>> roof{{Corner{0, 0, 5}, Corner{10, 0, 5}, Corner{10, 10, 5}},
+                                                  {Corner{0, 0, 5}, Corner{10, 10, 5}, Corner{0, 10, 5}}};
+    for (const bool turned : {false, true}) {
+        CHECK(green_of(roof, turned) > 110);
+        CHECK(green_of(roof, turned) > green_of(square, turned) + 10);
+        CHECK(green_of(square, turned) > 60);
+    }
 }
 
 TEST_CASE("its comments hold it in base64, with its size and length") {

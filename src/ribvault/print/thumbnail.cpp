@@ -36,9 +36,11 @@ struct Picture {
         for (std::size_t k = 0; k < 3; ++k) u[k] = t[1][k] - t[0][k], v[k] = t[2][k] - t[0][k];
         normal = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
         const double size = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-        const double facing = std::fabs(0.35 * normal[0] + 0.45 * normal[1] + 0.82 * normal[2]) / size;
+        // The light comes from above (down counts), a little from the right; the side that is seen is nearer.
+        const double facing =
+            std::copysign(1 / size, normal[2]) * (0.35 * normal[0] - 0.45 * normal[1] + 0.82 * normal[2]);
         const auto shade = [&](double channel) {
-            return static_cast<std::uint8_t>(channel * (0.3 + 0.7 * std::min(1.0, facing)));
+            return static_cast<std::uint8_t>(channel * (0.3 + 0.7 * std::clamp(facing, 0.0, 1.0)));
         };
         const auto clip = [](double value, int limit) {
             return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(limit - 1)));
