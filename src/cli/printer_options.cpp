@@ -10,6 +10,8 @@ namespace {
 std::string text_of(const std::string& file) {
     std::string text = read_input(file, "text");
     if (text.find('\0') != std::string::npos) throw Error(ErrorKind::unreadable, file + ": is no text file");
+    if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+        throw Error(ErrorKind::unreadable, file + ": is empty; it should hold settings, 'key = value'");
     return text;
 }
 

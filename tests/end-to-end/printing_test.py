@@ -83,6 +83,8 @@ class Printing(unittest.TestCase):
             self.assertIn(fragment, done.stderr)
             self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
         self.assertEqual(self.run_program("--profile", "none.ini").returncode, 3)
+        (self.folder / "mine.ini").write_text("\n")
+        self.assertEqual(self.run_program("--profile", "mine.ini").returncode, 3)
         self.assertEqual(self.run_program("--printer", "none").returncode, 2)
 
     def test_perimeters_inner_first_on_islands_of_unequal_width(self):
