@@ -244,6 +244,23 @@ TEST_CASE("what rounding put beside the region grows on its side of the object")
     for (const Segment& s : centre_lines(forest)) CHECK((s.a.x > 0) == (s.b.x > 0));
 }
 
+TEST_CASE("at the tip of a spike without a lattice point inside a pillar stands a little farther in") {
+    Settings settings;
+    settings.support = Support::external;
+    Cavity outside = beside(50, {}, settings);
+    outside.walls = Region{{{0, 0}, {100000, 1000}, {100000, 4000}}};
+    CavityBoundary boundary = prepare_boundary(outside);
+    boundary.free_trees = true;
+    GrowingSupports supports({}, boundary.location.box(), boundary, settings);
+    const Point at{-39500, -800};
+    supports.add_wall(at, 0);
+    CHECK(supports.covers(at, static_cast<double>(settings.nozzle / 2 + settings.support_radius - settings.slack)));
+    const SupportForest forest = supports.take();
+    REQUIRE(num_vertices(forest) > 0);
+    for (auto [v, end] = vertices(forest); v != end; ++v)
+        CHECK(boundary.location.locate(forest[*v].at) == Side::inside);
+}
+
 TEST_CASE("a root that the object leaves behind without another in reach stands free") {
     Settings settings;
     settings.support = Support::external;

@@ -144,11 +144,23 @@ std::optional<std::uint32_t> GrowingSupports::nearest_wall(Point p, const Square
 std::optional<Point> GrowingSupports::place_inside(Point p) const {
     if (boundary_.location.locate(p) == Side::inside) return p;
     if (boundary_.edges.empty()) return std::nullopt;
-    const Point near = nearest_point(p, boundary_.edges.segments()[boundary_.edges.nearest(p).index]);
-    for (Unit ring = 1; ring <= 3; ++ring)
-        for (Unit dy = -ring; dy <= ring; ++dy)
-            for (Unit dx = -ring; dx <= ring; ++dx)
-                if (const Point q{near.x + dx, near.y + dy}; boundary_.location.locate(q) == Side::inside) return q;
+    const Segment& edge = boundary_.edges.segments()[boundary_.edges.nearest(p).index];
+    const Point near = nearest_point(p, edge);
+    const auto beside = [&](Point at) -> std::optional<Point> {
+        for (Unit ring = 1; ring <= 3; ++ring)
+            for (Unit dy = -ring; dy <= ring; ++dy)
+                for (Unit dx = -ring; dx <= ring; ++dx)
+                    if (const Point q{at.x + dx, at.y + dy}; boundary_.location.locate(q) == Side::inside) return q;
+        return std::nullopt;
+    };
+    if (const std::optional<Point> place = beside(near)) return place;
+    // At the tip of a spike no lattice point may be inside; along its side, by no more than what is to be held up is
+    // within reach with, there may.
+    for (const Unit along : {settings_.slack / 4, settings_.slack, 7 * settings_.slack / 4})
+        for (const Point end : {edge.a, edge.b})
+            if (const double l = length(end - near); l > 0)
+                if (const auto place = beside(part_way(near, end, std::min(1.0, static_cast<double>(along) / l))))
+                    return place;
     return std::nullopt;
 }
 
