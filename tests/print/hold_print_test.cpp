@@ -254,7 +254,13 @@ TEST_CASE("steps below 5 um are left out, a path shorter than that is a dot, end
     plan.tracks.push_back(track(TrackKind::support, false, {{0, 0}, {100, 0}, {1000, 0}, {1200, 0}}));
     plan.tracks.push_back(track(TrackKind::support, false, {{0, mm}, {300, mm}}));
     plan.tracks.push_back(track(TrackKind::outer_perimeter, true, {{0, 0}, {mm, 0}, {mm, 100}, {mm, mm}, {0, 200}}));
+    // A corner beside the removal gap: cut by 3 um it would stand in it.
+    const std::vector<Point> corner{{0, 0}, {mm, 0}, {mm + 300, 300}, {mm + 300, 300}, {mm + 300, mm}};
+    plan.tracks.push_back(track(TrackKind::external_support, false, corner));
+    plan.tracks.push_back(track(TrackKind::external_support, false, {{0, mm}, {300, mm}}));
     drop_tiny_steps(plan);
+    CHECK(plan.tracks[3].paths[0].points == std::vector<Point>{corner[0], corner[1], corner[2], corner[4]});
+    CHECK(plan.tracks[4].paths[0].points == std::vector<Point>{{0, mm}});
     CHECK(plan.tracks[0].paths[0].points == std::vector<Point>{{0, 0}, {1200, 0}});
     CHECK(plan.tracks[1].paths[0].points == std::vector<Point>{{0, mm}});
     CHECK(plan.tracks[2].paths[0].points == std::vector<Point>{{0, 0}, {mm, 0}, {mm, mm}});

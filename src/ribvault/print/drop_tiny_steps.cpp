@@ -9,6 +9,10 @@ namespace ribvault {
 
 void drop_tiny_steps(ToolPath& path) {
     std::vector<Point>& points = path.points;
+    if (path.kind == TrackKind::external_support && length(path) >= static_cast<double>(shortest_step)) {
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        return;
+    }
     std::vector<Point> kept{points.front()};
     for (std::size_t k = 1; k < points.size(); ++k)
         if (!is_tiny_step(kept.back(), points[k])) kept.push_back(points[k]);
