@@ -27,12 +27,19 @@ inline CLI::Option* add_output(CLI::App* command, const std::string& option, std
     return command->add_option(option, target, help)->check(named)->type_name(type);
 }
 
+/// Where a number in the text begins that may have a + before it.
+inline const char* after_plus(const std::string& text) {
+    return text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
+}
+
 /// A whole number, decimal (a leading 0 does not make it octal). Throws Error (usage) naming the option.
 inline int whole_in(const std::string& text, const std::string& option, int least = INT_MIN, int most = INT_MAX) {
     int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
+    const auto [end, error] = std::from_chars(after_plus(text), text.data() + text.size(), value);
+    if (end != text.data() + text.size() || error == std::errc::invalid_argument)
         throw Error(ErrorKind::usage, option + ": '" + text + "' is no whole number");
+    if (error == std::errc::result_out_of_range)
+        throw Error(ErrorKind::usage, option + ": '" + text + "' is far too large or too small");
     if (value < least || value > most)
         throw Error(ErrorKind::usage, option + " is " + text + "; it must lie between " + std::to_string(least) +
                                           " and " + std::to_string(most));
@@ -53,9 +60,11 @@ inline CLI::Option* add_decimal(CLI::App* command, const std::string& option, do
         ->add_option_function<std::string>(
             option,
             [&target, option](const std::string& text) {
-                const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), target);
-                if (error != std::errc() || end != text.data() + text.size())
+                const auto [end, error] = std::from_chars(after_plus(text), text.data() + text.size(), target);
+                if (end != text.data() + text.size() || error == std::errc::invalid_argument)
                     throw Error(ErrorKind::usage, option + ": '" + text + "' is no number");
+                if (error == std::errc::result_out_of_range)
+                    throw Error(ErrorKind::usage, option + ": '" + text + "' is far too large or too small");
             },
             help)
         ->type_name("FLOAT");

@@ -60,6 +60,9 @@ function outsideProved(run) {
   return words.join("; ");
 }
 
+/** Layers whose print begins in the air over places too narrow to print; files from before they were named have none. */
+const overNarrowPlaces = run => run.header.verdict.print.layers_over_narrow_places || [];
+
 function runVerdict(run) {
   if (run.kind === "gcode") return run.good ? `Supported on ${allLayers(run)}${passed(run)}${run.apart ? ", by the rules that follow" : ""}.` : run.facts.verdict;
   const v = run.header.verdict, outside = v.external_overhangs.length;
@@ -69,7 +72,8 @@ function runVerdict(run) {
   if (run.apart)
     return `Proved on ${allLayers(run)}, as geometry and as printed: inside, every point has material within ρ below; ${outsideProved(run)}.`;
   return `Proved: every point of ${allLayers(run)} has material within ρ below, as geometry and as printed` +
-    (run.bedOnly ? `; ${outsideProved(run)}.` : outside > 0 ? `, but for what overhangs outside on ${many(outside, "layer")}.` : ".");
+    (run.bedOnly ? `; ${outsideProved(run)}` : outside > 0 ? `, but for what overhangs outside on ${many(outside, "layer")}` : "") +
+    (overNarrowPlaces(run).length > 0 ? ", but not over places too narrow to print." : ".");
 }
 
 /** What hangs in G-code that is supported all the same: what the options of `ribvault verify` let pass. */
@@ -95,6 +99,7 @@ function runWords(run) {
 function layerVerdict(run, k) {
   if (run.kind === "gcode") return !run.refuted(k) ? k === 0 ? "on the bed" : run.bridged(k) > 0 ? "supported, but for bridges" : "supported" : run.good ? "hangs, as --min-area lets it" : "hangs";
   if (run.refuted(k)) return "not proved";
+  if (overNarrowPlaces(run).includes(k)) return "proved, but begins in the air";
   return k === 0 ? "on the bed" : !run.hangs(k) ? "proved" : run.outside ? "proved, but for crevices" : "proved inside, overhangs outside";
 }
 
@@ -106,6 +111,7 @@ function layerProof(run, k) {
     return run.numbers(k).verdict.supported ? "Proved as geometry; of what is extruded something hangs." : run.outside ? "Not proved: something has no support." : "Not proved: something inside has no material within ρ below.";
   if (k === 0) return "The layer lies on the bed.";
   const alone = run.bedOnly ? ", external supports over external supports alone" : "";
+  if (overNarrowPlaces(run).includes(k)) return `Proved over layer ${k - 1} as geometry; some of what is printed begins in the air, over places of layer ${k - 1} too narrow to print.`;
   if (!run.apart) return `Proved over layer ${k - 1}, as geometry and as printed${alone}.`;
   const reach = run.reach > run.rho ? `within ρ of a support or within ${+run.reach.toFixed(5)} mm of the object` : "within ρ of a support or of the object";
   const lowest = k - 1 - run.emptyLayers;

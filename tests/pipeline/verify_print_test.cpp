@@ -216,6 +216,13 @@ TEST_CASE("inside an outline: where a loop is left open, or there is none, that 
         return verify_print(job);
     };
     std::vector<std::string> warnings;
+    // Entries of one layer, as infill of another height is one, have one outline.
+    const PrintReport two_heights = judged(
+        "G1 Y0 E1\n;TYPE:Internal infill\n;HEIGHT:0.4\nG1 X2 Y2\nG1 X4 E1\n"
+        ";TYPE:External perimeter\n;HEIGHT:0.2",
+        warnings);
+    CHECK(two_heights.layers.size() == 4);
+    CHECK(two_heights.layers_without_outline.empty());
     PrintReport closed = judged("G1 Y0 E1", warnings);
     CHECK_FALSE(closed.supported);
     CHECK(closed.layers_without_outline.empty());
@@ -226,7 +233,7 @@ TEST_CASE("inside an outline: where a loop is left open, or there is none, that 
         CHECK(open.supported);  // nothing over it is judged
         CHECK(open.layers_without_outline == std::vector<int>{1});
         REQUIRE(warnings.size() == 1);
-        CHECK_THAT(warnings[0], Contains("on 1 layers (the lowest is layer 1)"));
+        CHECK_THAT(warnings[0], Contains("on 1 layer (the lowest is layer 1)"));
     }
 }
 

@@ -276,7 +276,7 @@ TEST_CASE("beds of PrusaSlicer: where their corner is; discs; of other shapes a 
     p = bed("10x0,240x0,247x3,250x10,250x90,247x97,240x100,10x100,3x97,0x90,0x10,3x3", &ignored);
     CHECK_FALSE(p.round_bed);
     REQUIRE(ignored.size() == 1);
-    CHECK_THAT(ignored[0], Catch::StartsWith("bed_shape (no rectangle and no disc; "));
+    CHECK_THAT(ignored[0], Catch::StartsWith("bed_shape (in part: no rectangle and no disc; "));
     CHECK(p.bed_x == Approx(239.655).margin(0.01));
     CHECK(p.bed_y == Approx(95.862).margin(0.01));
     CHECK(p.corner_of_bed()[0] == Approx(5.172).margin(0.01));
@@ -284,9 +284,16 @@ TEST_CASE("beds of PrusaSlicer: where their corner is; discs; of other shapes a 
     CHECK_FALSE(p.round_bed);
     CHECK(p.bed_x == Approx(300 / std::sqrt(2.0)).margin(1));
     CHECK(p.bed_x / p.bed_y == Approx(1.5).margin(0.01));
-    CHECK_THROWS_WITH(bed("0x0,100x0,100x10,10x10,10x100,0x100"),
-                      Catch::Contains("c.ini:2: bed_shape: ") && Catch::Contains("no middle to print on"));
-    CHECK_THROWS_WITH(bed("0x0,100x0,50x0"), Catch::Contains("is no area"));
+    // Without a middle to print on, or without area: refused, unless an option gives a bed.
+    for (const char* shape : {"0x0,100x0,100x10,10x10,10x100,0x100", "0x0,100x0,50x0"}) {
+        Settings s;
+        TrackSettings t;
+        const ImportedConfig imported =
+            import_prusaslicer("layer_height = 0.1\nbed_shape = " + std::string(shape) + "\n", "c.ini", s, t, p);
+        REQUIRE(imported.doubts.size() == 1);
+        CHECK(imported.doubts[0].where == "c.ini:2: bed_shape");
+        CHECK_THROWS_WITH(check_printer(p), Catch::Equals(imported.doubts[0].message));
+    }
 }
 
 TEST_CASE("a flat PrusaSlicer config is taken whole; a bad number is refused with key and line") {

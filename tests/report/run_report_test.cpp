@@ -64,6 +64,18 @@ TEST_CASE("totals and verdict are the sums over the layers, and layers are put i
     CHECK(r.verdict.stages.rational == 30);
 }
 
+TEST_CASE("prints over narrow places are those that overhang where the slice does not, without external supports") {
+    RunReport r = sample();
+    for (LayerReport& layer : r.layers) layer.print.external_hangs = true, layer.verdict.external.reset();
+    r.layers[1].print.external_hangs = false;
+    r.layers[2].verdict.external.emplace();
+    sum_up(r);
+    CHECK(r.verdict.layers_over_narrow_places == std::vector<int>{0});
+    r.settings.support = Support::both;
+    sum_up(r);
+    CHECK(r.verdict.layers_over_narrow_places.empty());
+}
+
 TEST_CASE("external overhangs do not refute, a missing layer proves nothing") {
     RunReport r = sample();
     r.layers[2].verdict = r.layers[1].verdict;

@@ -36,10 +36,11 @@ void describe_verdict(std::string& text, const RunReport& r, const Job& job) {
     const auto layers = static_cast<int>(r.layers.size());
     const bool gap = r.settings.reach_of_object() > r.settings.support_radius;
     if (r.verdict.proved)
-        append_formatted(
-            text, "proved    equation (2) holds on all %d layers, decided exactly%s%s\n", layers,
-            r.verdict.print_proved ? ",\n          for the geometry and for what is extruded" : "",
-            r.verdict.layers_over_narrow_places.empty() ? "" : ", but not over places too narrow to print");
+        append_formatted(text, "proved    equation (2) holds on all %d layers, decided exactly%s%s\n", layers,
+                         r.verdict.print_proved ? ",\n          for the geometry and for what is extruded" : "",
+                         !r.verdict.print_proved || r.verdict.layers_over_narrow_places.empty()
+                             ? ""
+                             : ", but not over places too narrow to print");
     if (r.verdict.proved && gap)
         append_formatted(
             text,

@@ -199,20 +199,17 @@ private:
 
     /// What lies over a layer is outside where no loop bounds it.
     void look_for_outlines() {
-        bool any_loop = false;
-        for (const GcodeLayer& layer : print_.layers) {
-            const std::vector<char> outline = outline_tracks(print_.features, layer);
-            any_loop = any_loop || std::find(outline.begin(), outline.end(), 1) != outline.end();
-            if (layer.layer + 1 == print_.layer_count || has_whole_outline(print_.features, layer)) continue;
-            std::vector<int>& without = report_.layers_without_outline;
-            if (without.empty() || without.back() != layer.layer) without.push_back(layer.layer);
-        }
-        if (job_.inside && !any_loop)
+        std::vector<OutlineState> states(static_cast<std::size_t>(print_.layer_count));
+        for (const GcodeLayer& layer : print_.layers)  // entries of one layer have one outline
+            states[static_cast<std::size_t>(layer.layer)] += outline_state(print_.features, layer);
+        for (int k = 0; k + 1 < print_.layer_count; ++k)
+            if (!states[static_cast<std::size_t>(k)].whole()) report_.layers_without_outline.push_back(k);
+        if (job_.inside && std::none_of(states.begin(), states.end(), [](const OutlineState& s) { return s.loops; }))
             refuse("--inside needs closed loops of outer perimeter, and " + job_.gcode.string() +
                    " has none that end exactly where they begin; judge it without");
         if (const std::vector<int>& without = report_.layers_without_outline; !without.empty())
-            job_.warn("on " + std::to_string(without.size()) + " layers (the lowest is layer " +
-                      std::to_string(without.front()) +
+            job_.warn("on " + std::to_string(without.size()) + (without.size() == 1 ? " layer" : " layers") +
+                      " (the lowest is layer " + std::to_string(without.front()) +
                       ") there is no outer perimeter, or some of it does not end where it begins and bounds nothing: "
                       "what lies over that counts as outside" +
                       (job_.inside ? " and is not judged" : ""));

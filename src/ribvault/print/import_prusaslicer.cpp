@@ -72,6 +72,9 @@ double share_on_bed(const std::vector<Place>& corners, Place middle, Place half)
 }
 
 /// A rectangle, a disc as a polygon of many corners, or a rectangle that lies on a bed of another shape.
+/// A bed without area or middle: refused unless an option gives one.
+void no_bed(PrinterSettings& printer) { printer.bed_x = printer.bed_y = 0; }
+
 void take_bed(PrinterSettings& printer, const std::string& shape) {
     const std::vector<Place> corners = corners_in(shape);
     if (corners.empty()) throw Ignored{"empty"};
@@ -79,7 +82,7 @@ void take_bed(PrinterSettings& printer, const std::string& shape) {
     for (const Place& corner : corners)
         for (std::size_t c = 0; c < 2; ++c) lo[c] = std::min(lo[c], corner[c]), hi[c] = std::max(hi[c], corner[c]);
     for (std::size_t c = 0; c < 2; ++c) {
-        if (!(hi[c] > lo[c])) throw Error(ErrorKind::usage, "'" + shape + "' is no area");
+        if (!(hi[c] > lo[c])) return no_bed(printer);
         middle[c] = (lo[c] + hi[c]) / 2, half[c] = (hi[c] - lo[c]) / 2;
     }
     double nearest = INFINITY, farthest = 0;
@@ -90,12 +93,12 @@ void take_bed(PrinterSettings& printer, const std::string& shape) {
     constexpr double rounding = 0.01;  // mm, of a disc's corners
     const bool disc = corners.size() > 8 && farthest - nearest < rounding;
     const double share = disc ? 1 : share_on_bed(corners, middle, half);
-    if (share == 0) throw Error(ErrorKind::usage, "'" + shape + "' has no middle to print on");
+    if (share == 0) return no_bed(printer);
     const auto rounded = [](double v, double steps_per_mm) { return std::round(v * steps_per_mm) / steps_per_mm; };
     Place size{hi[0] - lo[0], hi[1] - lo[1]};
     for (std::size_t c = 0; c < 2; ++c) {
         if (disc) size[c] = 2 * nearest;
-        if (share < 1) size[c] *= share * (1 - 1e-6);
+        if (share < 1) size[c] = std::floor(size[c] * share / rounding) * rounding;
         const double steps_per_mm = disc ? 1 / rounding : units_per_mm;
         size[c] = rounded(size[c], steps_per_mm);
         if (disc || share < 1) lo[c] = rounded(middle[c] - size[c] / 2, steps_per_mm);
@@ -104,7 +107,7 @@ void take_bed(PrinterSettings& printer, const std::string& shape) {
     printer.origin_at_centre = std::fabs(middle[0]) < rounding && std::fabs(middle[1]) < rounding;
     printer.bed_corner = printer.origin_at_centre ? Place{} : lo;
     if (share < 1)
-        throw Ignored{"no rectangle and no disc; printed on is what lies in its middle: " +
+        throw Ignored{"in part: no rectangle and no disc; printed on is what lies in its middle, " +
                       decimal_text(printer.bed_x) + " x " + decimal_text(printer.bed_y) + " mm"};
 }
 

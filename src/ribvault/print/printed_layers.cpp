@@ -84,16 +84,16 @@ std::vector<char> outline_tracks(const std::vector<GcodeFeature>& features, cons
     return result;
 }
 
-bool has_whole_outline(const std::vector<GcodeFeature>& features, const GcodeLayer& layer) {
-    bool any_closed = false, left_open = false;
+OutlineState outline_state(const std::vector<GcodeFeature>& features, const GcodeLayer& layer) {
+    OutlineState state;
     visit_outer_walls(features, layer, [&](std::size_t first, std::size_t end, bool closed) {
-        any_closed = any_closed || closed;
+        state.loops = state.loops || closed;
         if (closed || end - first < 3) return;
         const GcodePoint &a = layer.points[layer.tracks[first].a], &b = layer.points[layer.tracks[end - 1].b];
         const double apart = std::hypot(to_double(b.x) - to_double(a.x), to_double(b.y) - to_double(a.y));
-        left_open = left_open || apart <= 1e-9 * static_cast<double>(layer.tracks[first].width);
+        state.left_open = state.left_open || apart <= 1e-9 * static_cast<double>(layer.tracks[first].width);
     });
-    return any_closed && !left_open;
+    return state;
 }
 
 std::vector<char> continued_tracks(const GcodeLayer& layer) {

@@ -23,9 +23,18 @@ PrintedLayer layer_below(const GcodePrint& print, std::size_t entry);
 /// bounds the object: tracks that follow each other without a travel and end exactly where they began.
 std::vector<char> outline_tracks(const std::vector<GcodeFeature>& features, const GcodeLayer& layer);
 
-/// Whether outline_tracks bounds all that it should: there are loops, and no path of outer perimeter ends within its
-/// width of where it begins but not there, as some slicers leave loops open at the seam.
-bool has_whole_outline(const std::vector<GcodeFeature>& features, const GcodeLayer& layer);
+/// Whether outline_tracks bounds all that it should.
+struct OutlineState {
+    bool loops = false;      ///< there are some
+    bool left_open = false;  ///< a path of outer perimeter ends within its width of where it begins but not there, as
+                             ///< some slicers leave loops open at the seam
+    bool whole() const { return loops && !left_open; }
+    OutlineState& operator+=(const OutlineState& more) {
+        loops = loops || more.loops, left_open = left_open || more.left_open;
+        return *this;
+    }
+};
+OutlineState outline_state(const std::vector<GcodeFeature>& features, const GcodeLayer& layer);
 
 /// Per track of the entry: 1 when it goes on where the track before it ended, without a travel.
 std::vector<char> continued_tracks(const GcodeLayer& layer);

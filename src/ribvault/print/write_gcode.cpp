@@ -241,8 +241,8 @@ double cruising_seconds(double share, const LayerPaths& layer, const std::vector
     double seconds = 0;
     for (const std::vector<ToolPath>* paths : {&beside, &layer.paths})
         for (const ToolPath& path : *paths) {
-            const double way =
-                path.points.size() == 1 ? std::numbers::pi / 4 * static_cast<double>(path.width) : length(path);
+            const double dot = std::numbers::pi / 4 * static_cast<double>(path.width), l = length(path);
+            const double way = 4 * l < static_cast<double>(path.width) ? dot : l;  // a stub takes as long as a dot
             seconds += way / units_per_mm / speed_of(path, layer.layer, printer, share);
         }
     return seconds;

@@ -64,7 +64,7 @@ struct LayerText {
 /// the volume over the filament's cross-section, unless its last moves are so short that the least E, 0.00001 mm, is
 /// more than theirs.
 /// A layer that would take less than printer.min_layer_time is written slower, so that it takes about that, no track
-/// below printer.min_print_speed.
+/// below printer.min_print_speed, no stub or dot below its flow at that speed.
 ///
 /// Precondition: every path has at least one point; the printer settings passed check_printer.
 LayerText gcode_layer(const LayerPaths& layer, const TravelMap& map, const Settings& settings,

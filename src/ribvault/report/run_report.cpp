@@ -53,7 +53,8 @@ void sum_up(RunReport& report) {
         if (layer.patch_in_gap) v.layers_with_patches_in_gap.push_back(layer.layer);
         v.stages += layer.verdict.stages;
         if (!layer.print.supported) v.print_layers_refuted.push_back(layer.layer);
-        if (layer.print.external_hangs && !layer.verdict.external) v.layers_over_narrow_places.push_back(layer.layer);
+        if (layer.print.external_hangs && !layer.verdict.external && !report.settings.outside())
+            v.layers_over_narrow_places.push_back(layer.layer);
         for (const std::size_t k : {0, 1}) {
             v.print_unsupported_mm[k] += layer.print.unsupported_mm[k];
             v.print_external_mm[k] += layer.print.external_mm[k];

@@ -114,7 +114,7 @@ struct VerdictSummary {
     std::array<double, 2> print_unsupported_mm{0, 0};  ///< enclosures of lengths of centre lines, sums over the layers
     std::array<double, 2> print_external_mm{0, 0};
     /// Layers whose print hangs outside the outline of the print below though the slice does not hang outside the slice
-    /// below: that is too narrow there for a closed perimeter. With external supports such layers are refuted instead.
+    /// below: that is too narrow there for a closed perimeter. None with external supports, where all is judged.
     std::vector<int> layers_over_narrow_places;
     StageCounts print_stages;
 };

@@ -189,12 +189,10 @@ bool GrowingSupports::runs_along(std::size_t vertex, Point arm) const {
 void GrowingSupports::mend_free_tree(std::size_t root) {
     const TreeWalk tree = walk_from(root, forest_);
     double track = 0;
-    std::vector<char> own(num_vertices(forest_), 0);
-    for (std::size_t k = 0; k < tree.order.size(); ++k) {
-        own[tree.order[k]] = 1;
-        track += tree.distance[k] - tree.distance[tree.parent[k]];
-    }
+    for (std::size_t k = 0; k < tree.order.size(); ++k) track += tree.distance[k] - tree.distance[tree.parent[k]];
     if (2 * track >= static_cast<double>(settings_.pillar_length)) return;
+    std::vector<char> own(num_vertices(forest_), 0);
+    for (const std::size_t v : tree.order) own[v] = 1;
     Point p = forest_[root].at;
     if (track <= static_cast<double>(same_place)) {
         bool there = false;
@@ -217,7 +215,7 @@ void GrowingSupports::mend_free_tree(std::size_t root) {
         const std::optional<Point> inside = place_inside(p);
         if (!inside || squared_length(*inside - p) > root_tolerance * root_tolerance * 4) return;
         p = *inside;
-        centre = add_vertex(SupportVertex{p}, forest_);
+        centre = add_vertex(vertex_between(forest_[root], forest_[root], p), forest_);
         own.push_back(1);
         connect(centre, root);
     }
