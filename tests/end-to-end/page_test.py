@@ -153,6 +153,19 @@ class Pages(unittest.TestCase):
         self.browser.screenshot(SCREENSHOTS / "unproved.png")
         self.at_end()
 
+    def test_what_begins_in_the_air_over_narrow_places_is_said(self):
+        lines = (self.folder / "a.layers").read_text().splitlines()
+        header = json.loads(lines[0])
+        header["verdict"]["print"]["layers_over_narrow_places"] = [60]
+        (self.folder / "narrow.layers").write_text("\n".join([json.dumps(header), *lines[1:]]) + "\n")
+        self.assertEqual(make_page(self.folder, "narrow.layers", "-o", "narrow.html").returncode, 0)
+        self.open("narrow.html", "#layer=60")
+        self.assertIn("as geometry and as printed, but not over places too narrow to print.", self.text("header"))
+        self.assertIn("proved, but begins in the air", self.text("#caption"))
+        self.open("narrow.html", "#layer=61")
+        self.assertTrue(self.text("#caption").endswith(": proved"), self.text("#caption"))
+        self.at_end()
+
     def test_pictures_are_drawn(self):
         self.open("a.html", "#layer=97")
         self.browser.settle()
