@@ -227,7 +227,8 @@ TEST_CASE("inside an outline: where a loop is left open, or there is none, that 
     CHECK_FALSE(closed.supported);
     CHECK(closed.layers_without_outline.empty());
     CHECK(warnings.empty());
-    for (const char* last_side : {"G1 Y.01 E1", ";TYPE:Thin wall\nG1 Y0 E1", ""}) {
+    const char* open_beside_a_loop = "G1 Y.01 E1\nG1 X30 Y0\nG1 X35 E1\nG1 Y5 E1\nG1 X30 Y0 E1";
+    for (const char* last_side : {"G1 Y.01 E1", open_beside_a_loop, ";TYPE:Thin wall\nG1 Y0 E1", ""}) {
         warnings.clear();
         const PrintReport open = judged(last_side, warnings);
         CHECK(open.supported);  // nothing over it is judged

@@ -45,8 +45,10 @@ TEST_CASE("two lines are one path around the tree, half a width from it, from sh
     CHECK(paths[0].points.front().x == 0);
     CHECK(paths[0].points.back().x == 0);
     const NearestSegment walls({{{0, 10 * mm}, {10 * mm, 10 * mm}}, {{5 * mm, 10 * mm}, {5 * mm, 15 * mm}}});
-    for (const Point p : paths[0].points)
-        CHECK(std::sqrt(walls.nearest(p).distance.value()) == Approx(20000).margin(1001));
+    const std::vector<Point>& points = paths[0].points;
+    for (std::size_t k = 1; k < points.size(); ++k)
+        for (const Point p : {points[k], part_way(points[k - 1], points[k], 0.5)})
+            CHECK(std::sqrt(walls.nearest(p).distance.value()) == Approx(20000).margin(1001));
     // Both sides of 15 mm of wall, two half circles less the corners at the joint.
     CHECK(length(paths[0]) / mm == Approx(30).margin(1.5));
 }

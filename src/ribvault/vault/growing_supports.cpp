@@ -199,15 +199,12 @@ void GrowingSupports::mend_free_tree(std::size_t root) {
         grid_.visit(around(p, static_cast<double>(same_place)), [&](std::uint32_t w) {
             there = there || (walls_[w].alive && !own[walls_[w].a] && compare_distance(p, segment(w), same_place) <= 0);
         });
-        // Of what goes on only the root does: steps as short as these are not printed, and what skips them would.
-        for (Wall& wall : walls_)
-            if (own[wall.a]) wall.alive = false;
-        for (const std::size_t v : tree.order) {
-            clear_vertex(v, forest_);
-            if (there || v != root) left_out_.push_back(v);
+        if (there) {
+            for (Wall& wall : walls_)
+                if (own[wall.a]) wall.alive = false;
+            for (const std::size_t v : tree.order) clear_vertex(v, forest_), left_out_.push_back(v);
+            return;
         }
-        if (there) return;
-        track = 0;
     }
     // Where rounding put the root beside the region, what is new begins in it: ways outside it would meet no edge.
     std::size_t centre = root;
@@ -221,13 +218,8 @@ void GrowingSupports::mend_free_tree(std::size_t root) {
     }
     SquaredDistance distance{0, 1};
     if (const std::optional<std::uint32_t> wall = nearest_wall(p, squared(longest_wall()), distance, centre, own)) {
-        // Where a step would be too short to be printed, the wall's end is as good.
-        const Point foot = nearest_point(p, segment(*wall));
-        std::optional<std::size_t> joint;
-        for (const std::size_t v : {walls_[*wall].a, walls_[*wall].b})
-            if (length(forest_[v].at - foot) < static_cast<double>(same_place) && free_way(p, v)) joint = v;
         forest_[root].root = forest_[root].free = false;
-        connect(centre, joint ? *joint : split(*wall, p));
+        connect(centre, split(*wall, p));
         return;
     }
     const Unit arm = settings_.pillar_length / 4;
