@@ -54,7 +54,8 @@ void LayerFinisher::check_gap(const SweptLayer& layer, LayerReport& report) cons
     if (!near) return;
     report.verdict.supported = false;
     report.verdict.malformed = "the external support at (" + std::to_string(to_mm(near->a.x)) + ", " +
-                               std::to_string(to_mm(near->a.y)) + ") mm is nearer to the object than the gap";
+                               std::to_string(to_mm(near->a.y)) + ") mm is nearer to the object than " +
+                               (s.support_gap > 0 ? "the gap" : "half a nozzle, and would be printed into it");
 }
 
 LayerPaths LayerFinisher::lay_paths(const SweptLayer& swept, LayerOutput& output) const {

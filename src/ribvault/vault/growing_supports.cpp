@@ -48,8 +48,8 @@ void GrowingSupports::connect(std::size_t a, std::size_t b) {
 }
 
 bool GrowingSupports::covers(Point p, double radius) const {
-    // Distances here are below 10 mm, so every product below is a whole number under 2^53 but for long walls, whose
-    // relative rounding error of 2^-52 is far below the slack that the radius leaves.
+    // In doubles, right to 2^-50 of the squares: far below the slack that the radius leaves, but for who asks without.
+    // A choice of what to grow; whether it holds is proved later.
     if (radius < 0) return false;
     const double r2 = radius * radius;
     return grid_.any_near(p, [&](std::uint32_t w) {
