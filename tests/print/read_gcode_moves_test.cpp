@@ -160,10 +160,10 @@ TEST_CASE("chords keep the bound where the radius changes, and in the smallest c
         const char* text;
         double cx, r0, r1, turn;
     };  // counter-clockwise from the right of the centre
-    const double small = 0.00089, turn = std::atan2(0.299 * std::sin(0.15), 0.299 * std::cos(0.15));
+    const double small = 0.00089, turn = 0.15;
     char spiral[100];
-    std::snprintf(spiral, sizeof spiral, "G3 X%.5f Y%.5f I-0.2 J0 E1", 9.8 + 0.299 * std::cos(0.15),
-                  0.299 * std::sin(0.15));
+    std::snprintf(spiral, sizeof spiral, "G3 X%.5f Y%.5f I-0.2 J0 E1", 9.8 + 0.299 * std::cos(turn),
+                  0.299 * std::sin(turn));
     for (const Case& c : {Case{"G3 X10 Y0 I-0.00089 J0 E1", 10 - small, small, small, 2 * std::numbers::pi},
                           Case{spiral, 9.8, 0.2, 0.299, turn}}) {
         INFO(c.text);

@@ -18,12 +18,14 @@ std::string where_listed(const Job& job) {
     return job.html ? "on the page" : "with --report FILE or --html FILE";
 }
 
+/// Is the layer refuted for its slices, which the proof cannot speak of? It says itself of which layer they are.
+bool is_of_slices(const LayerReport& layer) { return layer.verdict.malformed.starts_with("layer "); }
+
 /// What may help when something is not proved.
 void append_advice(std::string& text, const RunReport& r) {
     const Settings& s = r.settings;
     text += "  what may help: ";
-    if (std::any_of(r.layers.begin(), r.layers.end(),
-                    [](const LayerReport& layer) { return layer.verdict.malformed.starts_with("layer "); }))
+    if (std::any_of(r.layers.begin(), r.layers.end(), is_of_slices))
         text += "the mesh repaired where parts touch or cross, or moved a little (--rotate); ";
     if (s.support_gap > 0) text += "a smaller --support-gap; ";
     if (s.support_gap_layers > 0) text += "fewer --support-gap-layers; ";
@@ -77,7 +79,7 @@ void describe_verdict(std::string& text, const RunReport& r, const Job& job) {
         if (const auto& hole = layer.verdict.internal ? layer.verdict.internal : layer.verdict.external)
             append_formatted(text, "  layer %d: %.3g to %.3g mm2, among them (%.6f, %.6f) mm\n", layer.layer,
                              hole->area_lo, hole->area_hi, hole->witness[0], hole->witness[1]);
-        else if (layer.verdict.malformed.starts_with("layer "))
+        else if (is_of_slices(layer))
             append_formatted(text, "  %s\n", layer.verdict.malformed.c_str());
         else
             append_formatted(text, "  layer %d: %s\n", layer.layer, layer.verdict.malformed.c_str());

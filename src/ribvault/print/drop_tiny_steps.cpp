@@ -6,27 +6,6 @@
 #include "ribvault/exact/nearest_segment.hpp"
 
 namespace ribvault {
-
-void drop_tiny_steps(ToolPath& path) {
-    std::vector<Point>& points = path.points;
-    if (path.kind == TrackKind::external_support && length(path) >= static_cast<double>(shortest_step)) {
-        points.erase(std::unique(points.begin(), points.end()), points.end());
-        return;
-    }
-    std::vector<Point> kept{points.front()};
-    for (std::size_t k = 1; k < points.size(); ++k)
-        if (!is_tiny_step(kept.back(), points[k])) kept.push_back(points[k]);
-    if (path.closed) {
-        while (kept.size() > 1 && is_tiny_step(kept.back(), kept.front())) kept.pop_back();
-        path.closed = kept.size() > 2;
-    } else if (kept.back() != points.back()) {
-        // The last point counts more than those before it.
-        while (kept.size() > 1 && is_tiny_step(kept.back(), points.back())) kept.pop_back();
-        if (!is_tiny_step(kept.back(), points.back())) kept.push_back(points.back());
-    }
-    points = std::move(kept);
-}
-
 namespace {
 
 bool is_dot(const PlannedTrack& track) {
@@ -60,6 +39,26 @@ std::vector<char> repeated_dots(const LayerPlan& plan) {
 }
 
 }  // namespace
+
+void drop_tiny_steps(ToolPath& path) {
+    std::vector<Point>& points = path.points;
+    if (path.kind == TrackKind::external_support && length(path) >= static_cast<double>(shortest_step)) {
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        return;
+    }
+    std::vector<Point> kept{points.front()};
+    for (std::size_t k = 1; k < points.size(); ++k)
+        if (!is_tiny_step(kept.back(), points[k])) kept.push_back(points[k]);
+    if (path.closed) {
+        while (kept.size() > 1 && is_tiny_step(kept.back(), kept.front())) kept.pop_back();
+        path.closed = kept.size() > 2;
+    } else if (kept.back() != points.back()) {
+        // The last point counts more than those before it.
+        while (kept.size() > 1 && is_tiny_step(kept.back(), points.back())) kept.pop_back();
+        if (!is_tiny_step(kept.back(), points.back())) kept.push_back(points.back());
+    }
+    points = std::move(kept);
+}
 
 void drop_tiny_steps(LayerPlan& plan) {
     for (PlannedTrack& track : plan.tracks)

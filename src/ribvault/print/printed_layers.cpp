@@ -30,29 +30,6 @@ void append(const GcodeLayer& layer, const std::vector<char>& outline, std::int6
     }
 }
 
-}  // namespace
-
-PrintedLayer layer_above(const GcodePrint& print, std::size_t entry) {
-    PrintedLayer above;
-    append(print.layers[entry], {}, 2 * arc_bound, above);
-    return above;
-}
-
-PrintedLayer layer_below(const GcodePrint& print, std::size_t entry) {
-    PrintedLayer material;
-    append(print.layers[entry], {}, -2 * arc_bound, material);
-    return material;
-}
-
-PrintedLayer material_below(const GcodePrint& print, std::size_t entry) {
-    PrintedLayer material;
-    for (const std::size_t k : print.layers[entry].below)
-        append(print.layers[k], outline_tracks(print.features, print.layers[k]), -2 * arc_bound, material);
-    return material;
-}
-
-namespace {
-
 /// Calls visit(first, end, closed) for every run of tracks that follow each other without a travel and hold outer
 /// perimeter; `closed`: it ends exactly where it begins.
 template <class Visit>
@@ -73,6 +50,25 @@ void visit_outer_walls(const std::vector<GcodeFeature>& features, const GcodeLay
 }
 
 }  // namespace
+
+PrintedLayer layer_above(const GcodePrint& print, std::size_t entry) {
+    PrintedLayer above;
+    append(print.layers[entry], {}, 2 * arc_bound, above);
+    return above;
+}
+
+PrintedLayer layer_below(const GcodePrint& print, std::size_t entry) {
+    PrintedLayer material;
+    append(print.layers[entry], {}, -2 * arc_bound, material);
+    return material;
+}
+
+PrintedLayer material_below(const GcodePrint& print, std::size_t entry) {
+    PrintedLayer material;
+    for (const std::size_t k : print.layers[entry].below)
+        append(print.layers[k], outline_tracks(print.features, print.layers[k]), -2 * arc_bound, material);
+    return material;
+}
 
 std::vector<char> outline_tracks(const std::vector<GcodeFeature>& features, const GcodeLayer& layer) {
     std::vector<char> result(layer.tracks.size(), 0);

@@ -9,6 +9,13 @@
 namespace ribvault {
 namespace {
 
+/// The length of track that takes as much filament, and at the same flow as long, as a path on its own: its own, but of
+/// a dot, a disc, that of π w / 4. A stub shorter than a quarter of its width is a dot, a little drawn out.
+double length_by_filament(const ToolPath& path) {
+    const double l = length(path), width = static_cast<double>(path.width);
+    return 4 * l < width ? std::numbers::pi / 4 * width : l;
+}
+
 std::string_view type_name(TrackKind kind) {
     switch (kind) {
         case TrackKind::outer_perimeter: return "External perimeter";
@@ -117,10 +124,8 @@ struct Writer {
     }
     void track(const ToolPath& path, Unit height, double mm_per_s, bool joined) {
         double volume_per_mm = to_mm(path.width) * to_mm(height);
-        // A stub shorter than a quarter of its width, on its own, gets a dot's filament, at the flow of a track: it is
-        // a dot, a little drawn out.
-        if (const double whole = length(path); !joined && 4 * whole < static_cast<double>(path.width)) {
-            const double more = std::numbers::pi / 4 * static_cast<double>(path.width) / whole;
+        if (!joined) {
+            const double more = length_by_filament(path) / length(path);
             volume_per_mm *= more, mm_per_s /= more;
         }
         const double filament_per_unit = to_mm(1) * volume_per_mm / filament_area(printer);
@@ -241,9 +246,7 @@ double cruising_seconds(double share, const LayerPaths& layer, const std::vector
     double seconds = 0;
     for (const std::vector<ToolPath>* paths : {&beside, &layer.paths})
         for (const ToolPath& path : *paths) {
-            const double dot = std::numbers::pi / 4 * static_cast<double>(path.width), l = length(path);
-            const double way = 4 * l < static_cast<double>(path.width) ? dot : l;  // a stub takes as long as a dot
-            seconds += way / units_per_mm / speed_of(path, layer.layer, printer, share);
+            seconds += length_by_filament(path) / units_per_mm / speed_of(path, layer.layer, printer, share);
         }
     return seconds;
 }
