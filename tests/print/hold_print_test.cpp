@@ -55,6 +55,57 @@ TEST_CASE("a gap that lets nothing hang stays") {
     CHECK(judge_print(above, *held.printed, {}).supported);
 }
 
+/// A straight trunk, and beside its middle a branch of 0.3 mm on its first layer.
+SupportForest trunk_and_stub() {
+    SupportForest forest;
+    const auto root = add_vertex(SupportVertex{{0, 10 * mm}, true}, forest),
+               joint = add_vertex(SupportVertex{{10 * mm, 10 * mm}, false}, forest);
+    const auto end = add_vertex(SupportVertex{{14 * mm, 10 * mm}, false}, forest),
+               tip = add_vertex(SupportVertex{{10 * mm, 10 * mm + 30000}, false}, forest);
+    add_edge(root, joint, forest), add_edge(joint, end, forest), add_edge(joint, tip, SupportEdge{true}, forest);
+    return forest;
+}
+int support_tracks(const HeldLayer& held) {
+    return static_cast<int>(std::count_if(held.plan.tracks.begin(), held.plan.tracks.end(), [](const PlannedTrack& t) {
+        return t.paths.front().kind == TrackKind::support;
+    }));
+}
+
+TEST_CASE("a short branch needs no track of its own: the path beside it bends to its tip") {
+    const auto held = [&](Gaps gaps, const SupportForest& forest) {
+        Settings settings;
+        settings.gaps = gaps;
+        return hold_print(square_shell(), forest, nullptr, settings);
+    };
+    CHECK(held(Gaps::proved, trunk_and_stub()).plan.bends == 1);
+    CHECK(support_tracks(held(Gaps::proved, trunk_and_stub())) == 1);
+    CHECK(support_tracks(held(Gaps::paper, trunk_and_stub())) == 2);
+    CHECK(support_tracks(held(Gaps::none, trunk_and_stub())) == 2);
+    SupportForest outside = trunk_and_stub(), wide = trunk_and_stub();
+    for (std::size_t v = 0; v < num_vertices(outside); ++v) outside[v].outside = true, wide[v].wide = true;
+    CHECK(support_tracks(held(Gaps::proved, outside)) == 0);
+    CHECK(held(Gaps::proved, outside).plan.bends == 0);
+    CHECK(held(Gaps::proved, wide).plan.bends == 0);
+}
+
+TEST_CASE("where something would hang because a path bends, the branch gets its own track") {
+    // 0.18 mm on the other side of the trunk: its rim is 0.38 mm from the trunk and 0.48 mm from the bend.
+    const PrintedLayer above =
+        print_of({track(TrackKind::support, false, {{0, 10 * mm - 18000}, {14 * mm, 10 * mm - 18000}})});
+    const HeldLayer held = hold_print(square_shell(), trunk_and_stub(), &above, {});
+    CHECK(held.plan.bends == 0);
+    CHECK(support_tracks(held) == 2);
+    CHECK(held.patches == 0);
+    CHECK(judge_print(above, *held.printed, {}).supported);
+
+    // On the branch's side it stays bent.
+    const PrintedLayer beside =
+        print_of({track(TrackKind::support, false, {{0, 10 * mm + 10000}, {14 * mm, 10 * mm + 10000}})});
+    const HeldLayer bent = hold_print(square_shell(), trunk_and_stub(), &beside, {});
+    CHECK(bent.plan.bends == 1);
+    CHECK(judge_print(beside, *bent.printed, {}).supported);
+}
+
 TEST_CASE("a gap over which a wall's side hangs is closed; with the paper's gaps the verdict names it") {
     // 0.2 mm beside the branch, so that it reaches 0.4 mm: (10.2, 10.4) is 0.447 mm from the trunk's corner and from
     // the branch's end.

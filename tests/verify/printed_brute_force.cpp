@@ -42,7 +42,7 @@ Printed areas_of(const GridTrack& m, const std::vector<GridTrack>& lower) {
     const std::int64_t extent = std::max(std::max(m.ax, m.bx) + m.half - lo_x, std::max(m.ay, m.by) + m.half - lo_y);
     while (side < extent) side *= 2;
     std::vector<Square> level{{lo_x, lo_y, side}}, next;
-    for (int budget = 6000; !level.empty(); std::swap(level, next)) {
+    for (int budget = 60000; !level.empty(); std::swap(level, next)) {
         next.clear();
         for (const Square& q : level) {
             if (--budget < 0) return Printed::open;

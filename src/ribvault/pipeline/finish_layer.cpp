@@ -95,6 +95,7 @@ void LayerFinisher::describe(const SweptLayer& swept, const LayerPaths& paths, L
     r.external_support_volume_mm3 = p.volume[of(TrackKind::external_support)];
     r.gaps = paths.gaps;
     r.closed_gaps = swept.held.closed_gaps;
+    r.bends = paths.bends;
     r.patches = swept.held.patches;
     r.patch_length_mm = to_mm(swept.held.patch_length);
     r.perimeter_length_mm = p.length[of(TrackKind::outer_perimeter)] + p.length[of(TrackKind::inner_perimeter)];

@@ -41,8 +41,11 @@ public:
           settings_(settings),
           beside_(beside),
           walls_below_gap_(walls_below_gap) {
-        if (settings.gaps == Gaps::none)
-            for (auto [e, end] = edges(forest_); e != end; ++e) forest_[*e].to_junction = true;
+        for (auto [e, end] = edges(forest_); e != end; ++e) {
+            const SupportVertex& v = forest_[source(*e, forest_)];
+            if (settings.gaps == Gaps::none) forest_[*e].to_junction = true;
+            forest_[*e].may_bend = settings.gaps == Gaps::proved && !v.outside && !v.wide;
+        }
     }
 
     HeldLayer run() {
@@ -57,11 +60,15 @@ public:
             look_again();
             hanging = open();
         }
+        for (int laid = 1; settings_.gaps == Gaps::proved && !hanging.empty() && laid < rounds; ++laid) {
+            const bool straightened = straighten_bends(hanging), closed = close_gaps(hanging);
+            if (!straightened && !closed) break;
+            lay_supports();
+            look_again();
+            hanging = open();
+        }
         for (int round = 0; settings_.gaps != Gaps::paper && !hanging.empty() && round < rounds; ++round) {
-            if (!patches_ && close_gaps(hanging) > 0)
-                lay_supports();
-            else
-                patch(hanging, round);
+            patch(hanging, round);
             look_again();
             hanging = open();
         }
@@ -175,17 +182,34 @@ private:
             all.push_back({&tracks[stretch.track], stretch, like.over_gap, like.inside, like.on_supports});
     }
 
-    /// Branches whose gap may be what lets something hang reach their junction from now on. How many walls are new.
-    int close_gaps(const std::vector<HangingTrack>& open) {
-        // What hangs lies within half a width of its stretch. Walls whose centre line is farther than ρ from that could
-        // hold its rim only; closing their gaps too costs more than the patches that it saves.
-        std::vector<Segment> stretches;
-        std::vector<double> reach;
-        for (const HangingTrack& hanging : open)
-            stretches.push_back(hanging.place()), reach.push_back(reach_under(hanging));
-        const Unit farthest = static_cast<Unit>(std::ceil(*std::max_element(reach.begin(), reach.end())));
-        const NearestSegment places(std::move(stretches));
-        int closed = 0;
+    /// What hangs lies within half a width of a stretch. Walls whose centre line is farther than ρ from that could hold
+    /// its rim only; changing them too costs more than the patches that it saves.
+    class NearHanging {
+    public:
+        NearHanging(const Holder& holder, const std::vector<HangingTrack>& open) {
+            std::vector<Segment> stretches;
+            for (const HangingTrack& hanging : open)
+                stretches.push_back(hanging.place()), reach_.push_back(holder.reach_under(hanging));
+            farthest_ = static_cast<Unit>(std::ceil(*std::max_element(reach_.begin(), reach_.end())));
+            places_ = NearestSegment(std::move(stretches));
+        }
+        bool has(const Segment& s) const {
+            bool near = false;
+            places_.visit(bounding_box(s, farthest_),
+                          [&](std::uint32_t k) { near = near || distance(s, places_.segments()[k]) <= reach_[k]; });
+            return near;
+        }
+
+    private:
+        NearestSegment places_;
+        std::vector<double> reach_;
+        Unit farthest_ = 0;
+    };
+
+    /// Branches whose gap may be what lets something hang reach their junction from now on. Are there new ones?
+    bool close_gaps(const std::vector<HangingTrack>& open) {
+        const NearHanging hanging(*this, open);
+        const int before = held_.closed_gaps;
         for (auto [e, end] = edges(forest_); e != end; ++e) {
             if (forest_[*e].to_junction) continue;
             for (const auto& [from, to] : {std::pair(source(*e, forest_), target(*e, forest_)),
@@ -194,18 +218,31 @@ private:
                 // A gap takes the first width of the wall at most.
                 const Point a = forest_[from].at, b = forest_[to].at;
                 const double l = length(b - a), width = static_cast<double>(settings_.nozzle);
-                const Segment gap{a, part_way(a, b, l > width ? width / l : 1)};
-                bool near = false;
-                places.visit(bounding_box(gap, farthest),
-                             [&](std::uint32_t k) { near = near || distance(gap, places.segments()[k]) <= reach[k]; });
-                if (!near) continue;
+                if (!hanging.has({a, part_way(a, b, l > width ? width / l : 1)})) continue;
                 forest_[*e].to_junction = true;
-                ++closed;
+                ++held_.closed_gaps;
                 break;
             }
         }
-        held_.closed_gaps += closed;
-        return closed;
+        return held_.closed_gaps > before;
+    }
+    /// Branches under what hangs get a track of their own from now on, so that the path beside them need not bend. Are
+    /// there new ones?
+    bool straighten_bends(const std::vector<HangingTrack>& open) {
+        if (held_.plan.bends == 0) return false;
+        const NearHanging hanging(*this, open);
+        bool any = false;
+        for (auto [e, end] = edges(forest_); e != end; ++e) {
+            SupportEdge& edge = forest_[*e];
+            const std::size_t a = source(*e, forest_), b = target(*e, forest_);
+            if (!edge.may_bend || !(edge.first_layer || edge.to_junction)) continue;
+            if (std::max(out_degree(a, forest_), out_degree(b, forest_)) < 3) continue;
+            const Segment wall{forest_[a].at, forest_[b].at};
+            if (length(wall.b - wall.a) > static_cast<double>(settings_.nozzle) || !hanging.has(wall)) continue;
+            edge.may_bend = false;
+            any = true;
+        }
+        return any;
     }
     /// Puts patches under what hangs and lays them with the tracks that are there. From now on those stay as they are.
     void patch(const std::vector<HangingTrack>& open, int round) {

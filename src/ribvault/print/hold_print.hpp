@@ -47,6 +47,9 @@ struct HeldLayer {
 /// Walls of one line whose root has one wall go on through what stays open of the shell until they overlap its next
 /// track by d / 4, with any gaps.
 ///
+/// With Gaps::proved, paths in cavities go by the tips of short branches, which then need no track of their own
+/// (print/bent_path.hpp); where the verifier finds that something hangs because of it they get one.
+///
 /// First with the gaps of Section 4.4. Where the verifier finds something of `above` that these leave unsupported, the
 /// branches nearby are printed up to their junction (settings.gaps == Gaps::proved; with Gaps::paper nothing is done
 /// and the verdict will say what the gaps cost, with Gaps::none there are none from the start). Where that is not

@@ -23,6 +23,7 @@ struct LayerPlan {
     std::vector<PlannedTrack> spare;
     int gaps = 0;
     Unit gap_length = 0;
+    int bends = 0;            ///< places where a support's path takes short branches along (print/bent_path.hpp)
     int thin_places = 0;      ///< places of the slice too narrow for any track
     double thin_area = 0;     ///< their area in square lattice units
     double unfilled_area = 0;  ///< of the shell inside the perimeters between all tracks, the same

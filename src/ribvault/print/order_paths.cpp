@@ -127,7 +127,7 @@ PrintStage stage_of(TrackKind kind) {
 LayerPaths order_paths(LayerPlan plan, const Region& outline, bool alternate) {
     LayerPaths layer;
     layer.layer = plan.layer;
-    layer.gaps = plan.gaps, layer.gap_length = plan.gap_length;
+    layer.gaps = plan.gaps, layer.gap_length = plan.gap_length, layer.bends = plan.bends;
     layer.thin_places = plan.thin_places, layer.thin_area = plan.thin_area, layer.unfilled_area = plan.unfilled_area;
     if (plan.tracks.empty()) return layer;
 

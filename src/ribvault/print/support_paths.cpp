@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <string>
 
 #include "ribvault/error.hpp"
+#include "ribvault/print/bent_path.hpp"
 #include "ribvault/print/wide_walls.hpp"
 
 namespace ribvault {
@@ -27,6 +29,7 @@ struct RootedForest {
     std::vector<double> edge_length;  ///< of the edge to the parent
     std::vector<char> first_layer;    ///< of the edge to the parent
     std::vector<char> to_junction;    ///< the same
+    std::vector<char> may_bend;       ///< the same, where the branch is printed from its junction
     std::vector<double> reach;        ///< length of the longest way down from the vertex
     /// How much of the next branch leaving the vertex is left out: nothing where nothing was printed yet (a root), one
     /// width where a path runs through.
@@ -43,6 +46,7 @@ struct RootedForest {
           edge_length(num_vertices(f), 0),
           first_layer(num_vertices(f), 0),
           to_junction(num_vertices(f), 0),
+          may_bend(num_vertices(f), 0),
           reach(num_vertices(f), 0),
           gap(num_vertices(f), 0),
           seen(num_vertices(f), 0),
@@ -75,6 +79,7 @@ void hang_from_root(RootedForest& f, Vertex root, int layer) {
             f.edge_length[w] = length(f.at(w) - f.at(v));
             f.first_layer[w] = f.forest[*e].first_layer;
             f.to_junction[w] = f.forest[*e].to_junction;
+            f.may_bend[w] = f.forest[*e].may_bend && (f.first_layer[w] || f.to_junction[w]);
             order.push_back(w);
         }
     }
@@ -104,25 +109,27 @@ void children_by_rank(const RootedForest& f, Vertex v, std::vector<Vertex>& chil
     });
 }
 
-/// The path over `vertices` without the part before arc length `gap`. Fewer than two points: nothing is left.
-std::vector<Point> points_after_gap(const RootedForest& f, const std::vector<Vertex>& vertices, double gap) {
-    std::vector<Point> points;
-    const auto add = [&](Point p) {
-        if (points.empty() || points.back() != p) points.push_back(p);
-    };
-    if (gap <= 0) add(f.at(vertices.front()));
-    double before = 0;
-    for (std::size_t i = 1; i < vertices.size(); ++i) {
-        const double after = before + f.edge_length[vertices[i]];
-        if (after >= gap) {
-            if (before < gap) {
-                add(part_way(f.at(vertices[i - 1]), f.at(vertices[i]), (gap - before) / (after - before)));
-            }
-            add(f.at(vertices[i]));
-        }
-        before = after;
+/// The end of the branch that goes from v into w; no_vertex when it has several.
+Vertex tip_of(const RootedForest& f, Vertex v, Vertex w) {
+    while (out_degree(w, f.forest) == 2) {
+        auto next = adjacent_vertices(w, f.forest).first;
+        if (*next == v) ++next;
+        v = w, w = *next;
     }
-    return points;
+    return out_degree(w, f.forest) == 1 ? w : no_vertex;
+}
+
+/// What leaves a path for `subtrees` at its vertex v, `along` from its beginning.
+SideBranches side_branches(const RootedForest& f, Vertex v, double along, std::span<const Vertex> subtrees) {
+    SideBranches beside{along, {}, 0};
+    for (const Vertex w : subtrees) {
+        const double whole = f.edge_length[w] + f.reach[w];
+        const Vertex tip = f.may_bend[w] && whole <= f.width ? tip_of(f, v, w) : no_vertex;
+        if (tip == no_vertex) return {along, {}, 0};
+        beside.tips.push_back(f.at(tip));
+        beside.longest = std::max(beside.longest, whole);
+    }
+    return beside;
 }
 
 /// Sets for every vertex after the first how much a branch leaving it must leave out.
@@ -141,27 +148,55 @@ void set_gaps_along(RootedForest& f, const std::vector<Vertex>& vertices, double
     if (printed && gap <= 0) f.gap[vertices.front()] = width;
 }
 
+/// The bends of a path; the branches that it takes along are no longer among those that it leaves aside at its
+/// vertices.
+std::vector<Bend> take_along(const RootedForest& f, const std::vector<Vertex>& vertices, const PathCorners& corners,
+                             double gap, std::vector<std::vector<Vertex>>& aside) {
+    std::vector<SideBranches> beside;
+    std::vector<std::size_t> at;
+    for (std::size_t k = 1; k < vertices.size(); ++k) {
+        if (aside[k].empty()) continue;
+        beside.push_back(side_branches(f, vertices[k], corners.along[k], aside[k]));
+        at.push_back(k);
+    }
+    std::vector<Bend> bends = bends_of(corners, gap, beside, static_cast<double>(f.width) / 4);
+    for (const Bend& bend : bends) aside[at[bend.branches]].clear();
+    return bends;
+}
+
 TrackKind kind_of(const SupportVertex& root) { return root.outside ? TrackKind::external_support : TrackKind::support; }
 
 void append_tree(RootedForest& f, Vertex root, LayerPlan& plan) {
     std::vector<Branch> left;
     std::vector<Vertex> children, vertices;
+    std::vector<std::vector<Vertex>> aside;  // by vertex of a path the subtrees into which it does not go on
     children_by_rank(f, root, children);
     for (std::size_t i = children.size(); i-- > 0;) left.push_back({root, children[i]});
     while (!left.empty()) {
         const Branch branch = left.back();
         left.pop_back();
         vertices.assign({branch.junction, branch.into});
+        PathCorners corners{{f.at(branch.junction), f.at(branch.into)}, {0, f.edge_length[branch.into]}};
+        aside.assign(2, {});
         for (children_by_rank(f, branch.into, children); !children.empty();
              children_by_rank(f, vertices.back(), children)) {
-            for (std::size_t i = children.size(); i-- > 1;) left.push_back({vertices.back(), children[i]});
+            aside.back().assign(children.begin() + 1, children.end());
             vertices.push_back(children.front());
+            corners.at.push_back(f.at(children.front()));
+            corners.along.push_back(corners.along.back() + f.edge_length[children.front()]);
+            aside.emplace_back();
         }
         const double whole = f.edge_length[branch.into] + f.reach[branch.into];
         const bool first_layer = f.first_layer[branch.into];
         const double gap = first_layer || f.to_junction[branch.into] ? 0 : f.gap[branch.junction];
         std::vector<Point> points;
-        if (whole > gap) points = points_after_gap(f, vertices, gap);
+        if (whole > gap) {
+            const std::vector<Bend> bends = take_along(f, vertices, corners, gap, aside);
+            plan.bends += static_cast<int>(bends.size());
+            points = bent_path(corners, gap, bends);
+        }
+        for (std::size_t k = 1; k < vertices.size(); ++k)
+            for (std::size_t i = aside[k].size(); i-- > 0;) left.push_back({vertices[k], aside[k][i]});
         const bool printed = points.size() > 1;
         if (gap > 0 && whole > 0) {
             ++plan.gaps;

@@ -63,6 +63,7 @@ struct LayerPaths {
     std::vector<ToolPath> paths;
     int gaps = 0;           ///< how many branches stop one track width short of their junction (Section 4.4)
     Unit gap_length = 0;    ///< what these gaps take from the supports' length, in lattice units
+    int bends = 0;          ///< places where a support's path takes short branches along (print/bent_path.hpp)
     int thin_places = 0;    ///< places of the slice too narrow for any track: they are not printed
     double thin_area = 0;   ///< their area in square lattice units
     double unfilled_area = 0;  ///< of the shell inside the perimeters between all tracks, the same

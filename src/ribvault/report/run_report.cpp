@@ -40,6 +40,7 @@ void sum_up(RunReport& report) {
         t.braces += layer.braces;
         if (layer.slenderness > t.slenderness) t.slenderness = layer.slenderness, t.slenderest_layer = layer.layer;
         t.closed_gaps += layer.closed_gaps;
+        t.bends += layer.bends;
         t.patches += layer.patches;
         t.patch_length_mm += layer.patch_length_mm;
         t.closings += static_cast<long>(layer.closings.size());

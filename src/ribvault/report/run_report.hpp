@@ -51,6 +51,7 @@ struct LayerReport {
     LayerVerdict verdict;    ///< equation (2) for this layer over the one below; layer 0 lies on the bed
     PrintVerdict print;      ///< the same for what is extruded
     int closed_gaps = 0;  ///< branches printed up to their junction because a gap would have let something above hang
+    int bends = 0;        ///< places where a support's path takes short branches along (print/bent_path.hpp)
     int patches = 0;         ///< short tracks that hold what the shell's own tracks leave open
     bool patch_in_gap = false;  ///< an external support is nearer than the removal gap to a patch of the object, here
                                 ///< or on a layer of the gap above
@@ -91,6 +92,7 @@ struct RunTotals {
     long braces = 0;
     long gaps = 0;
     long closed_gaps = 0;
+    long bends = 0;
     long patches = 0;
     double patch_length_mm = 0;
     long closings = 0;
