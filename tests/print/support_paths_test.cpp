@@ -215,6 +215,20 @@ TEST_CASE("a branch of exactly one width vanishes, a longer one or one on its fi
     CHECK(with_branch(10000, true).gaps == 0);
 }
 
+TEST_CASE("a branch that begins on a track is no dot, however short; what begins a width away or alone may be") {
+    const auto on_track = [](Unit reach, bool first_layer) {
+        LayerPlan plan;
+        append_support_paths(
+            forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, reach}}, {{0, 1}, {1, 2}, {1, 3, first_layer}}),
+            Settings{}, plan);
+        REQUIRE(plan.tracks.size() == 2);
+        CHECK_FALSE(plan.tracks[0].paths.front().on_track);
+        return plan.tracks[1].paths.front().on_track;
+    };
+    CHECK(on_track(1000, true));
+    CHECK_FALSE(on_track(41000, false));
+}
+
 TEST_CASE("the gap is measured along a bent branch") {
     const auto paths = planned(forest_of(
         {{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, 30000}, {6 * mm, 30000}}, {{0, 1}, {1, 2}, {1, 3}, {3, 4}}));

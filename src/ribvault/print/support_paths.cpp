@@ -202,6 +202,7 @@ void append_tree(RootedForest& f, Vertex root, LayerPlan& plan) {
             ++plan.gaps;
             plan.gap_length += round_to_lattice(printed ? gap : whole);
         }
+        const bool on_track = gap <= 0 && f.gap[branch.junction] == static_cast<double>(f.width);
         set_gaps_along(f, vertices, gap, printed);
         const std::size_t above = f.printed_by[branch.junction], own = printed ? plan.tracks.size() : above;
         for (std::size_t i = 1; i < vertices.size(); ++i) f.printed_by[vertices[i]] = own;
@@ -210,7 +211,7 @@ void append_tree(RootedForest& f, Vertex root, LayerPlan& plan) {
         const bool lies_on_walls =
             std::none_of(vertices.begin() + 1, vertices.end(), [&](Vertex v) { return f.first_layer[v]; });
         const Entry entry = lies_on_walls ? Entry::either_end : Entry::fixed;
-        plan.tracks.push_back({{{kind_of(f.forest[root]), f.width, false, std::move(points)}}, entry, above});
+        plan.tracks.push_back({{{kind_of(f.forest[root]), f.width, false, std::move(points), on_track}}, entry, above});
     }
 }
 

@@ -10,10 +10,11 @@ namespace ribvault {
 namespace {
 
 /// The length of track that takes as much filament, and at the same flow as long, as a path on its own: its own, but of
-/// a dot, a disc, that of π w / 4. A stub shorter than a quarter of its width is a dot, a little drawn out.
+/// a dot, a disc, that of π w / 4. A stub shorter than a quarter of its width is a dot, a little drawn out, unless it
+/// begins on another track.
 double length_by_filament(const ToolPath& path) {
     const double l = length(path), width = static_cast<double>(path.width);
-    return 4 * l < width ? std::numbers::pi / 4 * width : l;
+    return !path.on_track && 4 * l < width ? std::numbers::pi / 4 * width : l;
 }
 
 std::string_view type_name(TrackKind kind) {
