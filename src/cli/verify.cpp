@@ -23,6 +23,7 @@ int run(Written& w) {
     };
     w.job.gcode = w.gcode;
     w.job.report = path(w.report), w.job.svg = path(w.svg), w.job.html = path(w.html);
+    w.job.distances = w.job.report || w.job.html;  // the summary has none
     Progress progress(w.quiet, "");
     w.job.progress = [&](int done, int total) { progress(done, total); };
     w.job.stop = interrupted;

@@ -139,7 +139,8 @@ void append(std::vector<PrintedTrack> more, std::vector<PrintedTrack>& tracks) {
 GroupVerdict judge(const PrintedLayer& upper, const PrintedLayer& lower, const std::vector<char>& judged,
                    const LayerRules& rules) {
     PrintedOptions options;
-    options.judged = judged, options.distance_cells = distance_cells;
+    options.judged = judged;
+    if (rules.distances) options.distance_cells = distance_cells;
     return located(verify_printed(upper, lower, rules.support_radius, options));
 }
 

@@ -20,6 +20,7 @@ struct LayerRules {
     Rational object_reach = 0;
     int gap_layers = 0;  ///< outside the outline below the object may lie on material so many layers farther down
     bool supports_alone = false;             ///< supports must lie on supports
+    bool distances = true;                   ///< tight bounds of the greatest distances of regions are wanted
 };
 
 /// What a feature has in one layer.

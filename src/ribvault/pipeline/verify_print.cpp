@@ -231,8 +231,8 @@ private:
         const std::size_t limit = thread_limit(job_.threads);
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
         report_.threads = static_cast<int>(limit);
-        const LayerRules rules{radius_,     job_.longest_bridge, report_.min_area_mm2,    judged_,
-                               job_.inside, object_reach_,       job_.support_gap_layers, job_.bed_only};
+        const LayerRules rules{radius_,       job_.longest_bridge,     report_.min_area_mm2, judged_,       job_.inside,
+                               object_reach_, job_.support_gap_layers, job_.bed_only,        job_.distances};
         const int total = static_cast<int>(print_.layers.size());
         std::vector<JudgedLayer> judged(print_.layers.size());
         std::mutex reporting;

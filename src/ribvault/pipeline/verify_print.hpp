@@ -32,6 +32,7 @@ struct VerifyJob {
     bool bed_only = false;                   ///< supports must lie on supports, down to the bed
     std::optional<std::filesystem::path> report, svg, html;  ///< what to write; svg is a folder
     bool boundaries = false;                 ///< the report has the exact boundary of every region
+    bool distances = true;  ///< tight bounds of the greatest distances of regions are wanted (a quarter of the work)
     int pictures = 12;                       ///< how many layers svg gets at most
     int threads = 0;                         ///< 0: all processors
     std::function<void(int done, int total)> progress = [](int, int) {};

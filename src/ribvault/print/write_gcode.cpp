@@ -201,8 +201,8 @@ LayerText layer_at(double share, const LayerPaths& layer, const TravelMap& map, 
     const ToolPath* previous = nullptr;
     // `next` is printed after `path`, if anything is.
     const auto print = [&](const ToolPath& path, const ToolPath* next) {
-        const bool joined = path.on_track || (previous && end_of(*previous) == path.points.front()) ||
-                            (next && next->points.front() == end_of(path));
+        const bool joined =
+            (previous && end_of(*previous) == path.points.front()) || (next && next->points.front() == end_of(path));
         const TrackEnd start{path.points.front(), path.width, tool_of(path, printer)};
         if (!previous) {
             out.first = start, out.surplus = with_surplus(path);
