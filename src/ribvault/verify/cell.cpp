@@ -97,25 +97,6 @@ Vec<double> off_lines(const Subdivision& s, const Cell& cell) {
     return {x, y};
 }
 
-// Calls use(i) for those of 0 <= i < count, increasing, of which test(i) is true, which may be looked for between the
-// heights only.
-template <class Test, class Use>
-void visit_between(const HeightRows& rows, std::size_t count, double from, double to, const Test& test,
-                   const Use& use) {
-    if (rows.empty()) {
-        for (std::size_t i = 0; i < count; ++i)
-            if (test(i)) use(i);
-        return;
-    }
-    boost::container::small_vector<std::uint32_t, 64> found;
-    rows.visit(from, to, [&](std::uint32_t i) {
-        if (i < count && test(i)) found.push_back(i);
-    });
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    for (const std::uint32_t i : found) use(static_cast<std::size_t>(i));
-}
-
 // Winding number of all edges about a point on none of them: those that a ray to +x crosses. A vertex on the ray counts
 // as above it.
 int winding_at(const Subdivision& s, const std::vector<Track>& tracks, const std::vector<Edge>& edges,
@@ -125,19 +106,28 @@ int winding_at(const Subdivision& s, const std::vector<Track>& tracks, const std
         if (height < y - s.margin) return false;
         return exact_point<Rational>(s.problem->vertices[vertex]).y >= Rational(y);
     };
-    int winding = 0;
-    const auto may_cross = [&](std::size_t i) {
+    const auto crossing = [&](std::size_t i) {
         const Track& t = tracks[i];
         const double end = t.ay + t.dy;
-        return std::max(t.ay, end) >= y - s.margin && std::min(t.ay, end) <= y + s.margin &&
-               std::max(t.ax, t.ax + t.dx) >= x - s.margin;
+        if (std::max(t.ay, end) < y - s.margin || std::min(t.ay, end) > y + s.margin ||
+            std::max(t.ax, t.ax + t.dx) < x - s.margin)
+            return 0;
+        const bool up = above(end, edges[i].b);
+        if (above(t.ay, edges[i].a) == up) return 0;
+        return side_of_edge(s, t, edges[i], x, y) == (up ? 1 : -1) ? (up ? 1 : -1) : 0;
     };
-    visit_between(rows, edges.size(), y - s.margin, y + s.margin, may_cross, [&](std::size_t i) {
-        const Track& t = tracks[i];
-        const bool up = above(t.ay + t.dy, edges[i].b);
-        if (above(t.ay, edges[i].a) == up) return;
-        if (side_of_edge(s, t, edges[i], x, y) == (up ? 1 : -1)) winding += up ? 1 : -1;
+    int winding = 0;
+    if (rows.empty()) {
+        for (std::size_t i = 0; i < edges.size(); ++i) winding += crossing(i);
+        return winding;
+    }
+    boost::container::small_vector<std::pair<std::uint32_t, int>, 16> crossed;  // one may be in two rows
+    rows.visit(y - s.margin, y + s.margin, [&](std::uint32_t i) {
+        if (const int sign = crossing(i); sign != 0) crossed.emplace_back(i, sign);
     });
+    std::sort(crossed.begin(), crossed.end());
+    crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
+    for (const auto& [i, sign] : crossed) winding += sign;
     return winding;
 }
 
@@ -175,16 +165,32 @@ Subdivision subdivision(const CoverProblem& problem, std::size_t windows) {
     for (const Edge& t : problem.material) s.material.push_back(track_of(problem, t.a, t.b));
     for (const Stadium& t : problem.pieces) s.pieces.push_back(track_of(problem, t.a, t.b));
     if (windows < few_windows) return s;
-    const auto rows = [&](const std::vector<Track>& tracks, const auto& radius) {
-        return HeightRows(tracks.size(), [&](std::size_t i) {
+    const auto rows = [&](const std::vector<Track>& tracks, std::size_t count) {
+        return HeightRows(count, [&](std::size_t i) {
             const Track& t = tracks[i];
-            const double reach = radius(i) + 32 * s.margin;
+            const double reach = 32 * s.margin;
             return std::pair(std::min(t.ay, t.ay + t.dy) - reach, std::max(t.ay, t.ay + t.dy) + reach);
         });
     };
-    s.site_rows = rows(s.sites, [&](std::size_t i) { return problem.sites[i].radius.approx; });
-    s.material_rows = rows(s.material, [](std::size_t) { return 0.0; });
-    s.piece_rows = rows(s.pieces, [&](std::size_t i) { return problem.pieces[i].radius.approx; });
+    s.region_rows = rows(s.sites, problem.region.size()), s.material_rows = rows(s.material, s.material.size());
+    auto squares = std::make_unique<Subdivision::Squares>();
+    const auto prepared = [](const std::vector<Track>& tracks, const auto& radius) {
+        std::vector<PreparedTrack> all(tracks.size());
+        for (std::size_t i = 0; i < tracks.size(); ++i) {
+            const Track& t = tracks[i];
+            PreparedTrack& p = all[i];
+            p.ax = t.ax, p.ay = t.ay, p.bx = t.ax + t.dx, p.by = t.ay + t.dy, p.dx = t.dx, p.dy = t.dy;
+            p.inverse_norm = t.inverse_norm, p.half = radius(i);
+        }
+        return all;
+    };
+    squares->site_tracks = prepared(s.sites, [&](std::size_t i) { return problem.sites[i].radius.approx; });
+    squares->material_tracks = prepared(s.material, [](std::size_t) { return 0.0; });
+    squares->piece_tracks = prepared(s.pieces, [&](std::size_t i) { return problem.pieces[i].radius.approx; });
+    squares->sites = TrackGrid(squares->site_tracks, 32 * s.margin);
+    squares->material = TrackGrid(squares->material_tracks, 32 * s.margin);
+    squares->pieces = TrackGrid(squares->piece_tracks, 32 * s.margin);
+    s.squares = std::move(squares);
     return s;
 }
 
@@ -207,28 +213,35 @@ CellState root_cell(const Subdivision& s, const Window& window, Cell& cell) {
         return std::max(t.ax, t.ax + t.dx) > cell.x - reach && std::min(t.ax, t.ax + t.dx) < cell.x + reach &&
                std::max(t.ay, t.ay + t.dy) > cell.y - reach && std::min(t.ay, t.ay + t.dy) < cell.y + reach;
     };
-    const auto visit_near = [&](const HeightRows& rows, const std::vector<Track>& tracks, const auto& radius,
-                                const auto& use) {
-        visit_between(
-            rows, tracks.size(), square.lo_y, square.hi_y, [&](std::size_t i) { return near(tracks[i], radius(i)); },
-            use);
+    std::vector<int> found;
+    // Those of the tracks, in their order, that come near the square.
+    const auto visit_near = [&](const TrackGrid Subdivision::Squares::*grid, const std::vector<Track>& tracks,
+                                const auto& radius, const auto& use) {
+        const auto look_at = [&](int i) {
+            if (near(tracks[static_cast<std::size_t>(i)], radius(i))) use(i);
+        };
+        if (s.squares) {
+            ((*s.squares).*grid).near(cell.x, cell.y, cell.half, found);
+            std::for_each(found.begin(), found.end(), look_at);
+        } else {
+            for (int i = 0; i < static_cast<int>(tracks.size()); ++i) look_at(i);
+        }
     };
     visit_near(
-        s.site_rows, s.sites, [&](std::size_t i) { return problem.sites[i].radius.approx; },
-        [&](std::size_t i) {
-            cell.sites.push_back(static_cast<int>(i));
-            if (i < problem.region.size() && near(s.sites[i], 0)) cell.region.push_back(static_cast<int>(i));
+        &Subdivision::Squares::sites, s.sites, [&](int i) { return problem.sites[i].radius.approx; },
+        [&](int i) {
+            cell.sites.push_back(i);
+            if (static_cast<std::size_t>(i) < problem.region.size() && near(s.sites[i], 0)) cell.region.push_back(i);
         });
     visit_near(
-        s.material_rows, s.material, [](std::size_t) { return 0.0; },
-        [&](std::size_t i) { cell.edges.push_back(static_cast<int>(i)); });
+        &Subdivision::Squares::material, s.material, [](int) { return 0.0; }, [&](int i) { cell.edges.push_back(i); });
     visit_near(
-        s.piece_rows, s.pieces, [&](std::size_t i) { return problem.pieces[i].radius.approx; },
-        [&](std::size_t i) { cell.pieces.push_back(static_cast<int>(i)); });
+        &Subdivision::Squares::pieces, s.pieces, [&](int i) { return problem.pieces[i].radius.approx; },
+        [&](int i) { cell.pieces.push_back(i); });
     const auto [x, y] = off_lines(s, cell);
     cell.ref_x = x, cell.ref_y = y;
     cell.material_winding = winding_at(s, s.material, problem.material, s.material_rows, x, y);
-    cell.region_winding = winding_at(s, s.sites, problem.region, s.site_rows, x, y);
+    cell.region_winding = winding_at(s, s.sites, problem.region, s.region_rows, x, y);
     return state_of(problem, cell, false);
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <boost/container/small_vector.hpp>
+#include <memory>
 
 #include "ribvault/verify/height_rows.hpp"
+#include "ribvault/verify/prepared_tracks.hpp"
 #include "ribvault/verify/subdivide.hpp"
 
 namespace ribvault::verify {
@@ -37,8 +39,14 @@ struct Subdivision {
     const CoverProblem* problem = nullptr;
     double margin = 0;
     std::vector<Track> sites, material, pieces;
-    /// By the heights of sites and pieces with their radii, of material without; empty where there are few windows.
-    HeightRows site_rows, material_rows, piece_rows;
+    /// By the heights of the edges of region and material; nothing where there are few windows.
+    HeightRows region_rows, material_rows;
+    /// What comes near a square: sites and pieces with their radii, material without. None where there are few windows.
+    struct Squares {
+        std::vector<PreparedTrack> site_tracks, material_tracks, piece_tracks;
+        TrackGrid sites, material, pieces;  ///< of these
+    };
+    std::unique_ptr<const Squares> squares;
 };
 /// `windows`: how many root cells will be asked for.
 Subdivision subdivision(const CoverProblem& problem, std::size_t windows);
