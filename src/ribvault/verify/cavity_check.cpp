@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <sstream>
 
 #include "ribvault/exact/int128.hpp"
+#include "ribvault/verify/height_rows.hpp"
 #include "ribvault/verify/point_signs.hpp"
 
 namespace ribvault::verify {
@@ -127,6 +127,52 @@ Located at_vertex(const CoverProblem& problem, int vertex) {
     return located(problem, {Candidate::Kind::vertex, vertex, 0, {}, {}, 0});
 }
 
+/// A boundary in rows by height, for winding numbers about many points.
+class BoundaryRows {
+public:
+    BoundaryRows(const CoverProblem& problem, std::span<const Edge> edges)
+        : problem_(problem), edges_(edges), rows_(edges.size(), [&](std::size_t i) {
+              const Vertex &a = problem.vertices[edges[i].a], &b = problem.vertices[edges[i].b];
+              return std::pair(std::min(a.y.inf(), b.y.inf()), std::max(a.y.sup(), b.y.sup()));
+          }) {}
+
+    /// About a vertex that is on none of the edges: of those that a ray to +x crosses. A vertex on the ray counts as
+    /// above it.
+    int winding_at(int vertex) const {
+        Located v = at_vertex(problem_, vertex);
+        std::vector<std::pair<std::uint32_t, int>> crossed;  // an edge may be in several rows
+        rows_.visit(v.y.inf(), v.y.sup(), [&](std::uint32_t i) {
+            if (const int sign = crossing(edges_[i], v, vertex); sign != 0) crossed.emplace_back(i, sign);
+        });
+        std::sort(crossed.begin(), crossed.end());
+        crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
+        int winding = 0;
+        for (const auto& [i, sign] : crossed) winding += sign;
+        return winding;
+    }
+
+private:
+    bool above(int end, const Located& v, int vertex) const {
+        const Vertex& p = problem_.vertices[end];
+        if (p.y.inf() > v.y.sup()) return true;
+        if (p.y.sup() < v.y.inf()) return false;
+        return exact_point<Rational>(p).y >= exact_point<Rational>(problem_.vertices[vertex]).y;
+    }
+    /// 1 when the ray is crossed upwards, -1 downwards, 0 when it is not.
+    int crossing(const Edge& e, Located& v, int vertex) const {
+        const Vertex &a = problem_.vertices[e.a], &b = problem_.vertices[e.b];
+        if (std::max(a.x.sup(), b.x.sup()) < v.x.inf()) return 0;
+        const bool up = above(e.b, v, vertex);
+        if (above(e.a, v, vertex) == up) return 0;
+        const int way = up ? 1 : -1;
+        return orientation_sign(v, e.a, e.b, Stage::algebraic) == way ? way : 0;
+    }
+
+    const CoverProblem& problem_;
+    std::span<const Edge> edges_;
+    HeightRows rows_;
+};
+
 // Closed segments without a common point.
 bool apart(const CoverProblem& problem, const Edge& e, const Edge& f) {
     const auto side = [&](const Edge& line, int vertex) {
@@ -191,22 +237,11 @@ std::string check_inside(std::span<const Vertex> vertices, std::span<const Edge>
     CGAL::box_intersection_d(inner.begin(), inner.end(), outer.begin(), outer.end(), meet);
     if (!malformed.empty()) return malformed;
 
-    double low_x = vertices[cavity[0].a].cx, low_y = vertices[cavity[0].a].cy;
-    for (const auto& boundary : {cavity, slice})
-        for (const Edge& e : boundary)
-            low_x = std::min(low_x, vertices[e.a].cx), low_y = std::min(low_y, vertices[e.a].cy);
-    // The winding number of a boundary at each of the vertices at which the chains of another start: that of a point
-    // far away, where it is 0, and what is crossed on the way.
+    // A vertex at which a chain starts whose winding number in the other boundary is wrong.
     const auto find_start = [&](std::span<const Edge> chains, std::span<const Edge> boundary, const auto& wrong) {
-        std::vector<int> all(boundary.size());
-        std::iota(all.begin(), all.end(), 0);
-        double step = 1;
-        do step *= 1.0378;
-        while (!off_lines(problem, boundary, all, low_x - step, low_y - 0.7231 * step));
-        for (const int i : chain_starts(chains)) {
-            Located v = at_vertex(problem, chains[i].a);
-            if (wrong(crossings(boundary, all, low_x - step, low_y - 0.7231 * step, v))) return &vertices[chains[i].a];
-        }
+        const BoundaryRows rows(problem, boundary);
+        for (const int i : chain_starts(chains))
+            if (wrong(rows.winding_at(chains[i].a))) return &vertices[chains[i].a];
         return static_cast<const Vertex*>(nullptr);
     };
     if (const Vertex* v = find_start(cavity, slice, [](int winding) { return winding == 0; }))
