@@ -1,5 +1,6 @@
 #include "ribvault/print/travel_map.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -23,6 +24,12 @@ double length_of(Point from, const std::vector<Point>& via) {
     return sum;
 }
 
+double distance(const Box& box, Point p) {
+    const Unit x = std::max({box.lo.x - p.x, Unit{0}, p.x - box.hi.x}),
+               y = std::max({box.lo.y - p.y, Unit{0}, p.y - box.hi.y});
+    return length(Point{x, y});
+}
+
 /// The vertex of a contour nearest to p.
 std::size_t nearest_vertex(const Contour& contour, Point p, double& far) {
     std::size_t best = 0;
@@ -37,7 +44,10 @@ std::size_t nearest_vertex(const Contour& contour, Point p, double& far) {
 TravelMap::TravelMap(const Region& outline, const Region& cavity, const LayerPaths& layer)
     : known_(true), outline_(edges_of(outline)), cavity_(edges_of(cavity)) {
     for (const ToolPath& path : layer.paths)
-        if (path.kind == TrackKind::outer_perimeter && path.closed) perimeters_.push_back(path.points);
+        if (path.kind == TrackKind::outer_perimeter && path.closed) {
+            perimeters_.push_back(path.points);
+            for (Box& box = boxes_.emplace_back(); Point p : path.points) box.add(p);
+        }
 }
 
 bool TravelMap::sees(Point a, Point b) const {
@@ -76,10 +86,12 @@ bool TravelMap::detour(Point from, Point to, int contours_left, int& views_left,
     const Contour* ring = nullptr;
     std::size_t enter = 0;
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Contour& perimeter : perimeters_) {
+    const Point crossed = part_way(from, to, first);
+    for (std::size_t k = 0; k < perimeters_.size(); ++k) {
+        if (distance(boxes_[k], crossed) > nearest) continue;
         double far = 0;
-        const std::size_t vertex = nearest_vertex(perimeter, part_way(from, to, first), far);
-        if (far < nearest) nearest = far, ring = &perimeter, enter = vertex;
+        const std::size_t vertex = nearest_vertex(perimeters_[k], crossed, far);
+        if (far < nearest) nearest = far, ring = &perimeters_[k], enter = vertex;
     }
     double far = 0;
     const std::size_t n = ring->size(), leave = nearest_vertex(*ring, part_way(from, to, last), far);

@@ -42,6 +42,7 @@ private:
     bool known_ = false;
     SegmentRows outline_, cavity_;
     std::vector<Contour> perimeters_;
+    std::vector<Box> boxes_;  ///< of the perimeters
 };
 
 }  // namespace ribvault

@@ -68,9 +68,9 @@ public:
         return false;
     }
 
-    /// Winding number of one contour around p, which is on none of its edges. Exact.
-    int winding(std::uint32_t contour, std::size_t first_edge, std::size_t count, const ExactPoint& p) const {
-        const Bounds b = bounds_of(p);
+    /// Winding number of one contour around p, which is on none of its edges. Exact. `b`: bounds of p.
+    int winding(std::uint32_t contour, std::size_t first_edge, std::size_t count, const ExactPoint& p,
+                const Bounds& b) const {
         if (!contour_bounds_[contour].meets(b)) return 0;
         int winding = 0;
         for (std::size_t k = first_edge; k < first_edge + count; ++k) {
@@ -152,13 +152,16 @@ std::optional<ExactPolygons> nest_contours(const std::vector<ExactContour>& cont
     ExactPolygons result;
     std::vector<int> outside(n, 0);
     std::vector<std::int64_t> polygon_of(n, -1);
-    for (std::uint32_t c = 0; c < n; ++c)
+    for (std::uint32_t c = 0; c < n; ++c) {
+        const ExactPoint& p = contours[c].front();
+        const Bounds b = bounds_of(p);
         for (std::uint32_t d = 0; d < n; ++d) {
             if (c == d) continue;
-            const int w = grid.winding(d, first_edge[d], contours[d].size(), contours[c].front());
+            const int w = grid.winding(d, first_edge[d], contours[d].size(), p, b);
             outside[c] += w;
             if (w != 0) around[c].push_back(d);
         }
+    }
     const auto kept = [&](std::uint32_t c) { return (outside[c] == 0) != (outside[c] + turn[c] == 0); };
     for (std::uint32_t c = 0; c < n; ++c) {
         if (!kept(c) || outside[c] != 0) continue;
