@@ -162,9 +162,9 @@ private:
         std::uint32_t crossed = 0;
         const auto cross_edge = [&](std::uint32_t k) {
             const Approximate& e = doubles_[k];
+            if (std::max(e.ax, e.bx) < x - margin) return;
             const bool up = above(e.by, edges_[k]->b[1]);
             if (above(e.ay, edges_[k]->a[1]) == up) return;
-            if (std::max(e.ax, e.bx) < x - margin) return;
             int side = std::min(e.ax, e.bx) > x + margin ? (up ? 1 : -1) : turn(e.ax, e.ay, e.bx, e.by, x, y, c);
             if (side == 0) side = sgn(cross(rational(edges_[k]->a), rational(edges_[k]->b), p()));
             if (side == (up ? 1 : -1)) ++crossed;
