@@ -384,6 +384,53 @@ TEST_CASE("inner first: an island without inner perimeters waits for none of ano
     }
 }
 
+TEST_CASE("every ring of perimeters comes after all rings before it that it runs beside") {
+    const Contour three_halls{{0, 0},
+                              {5 * mm, 0},
+                              {5 * mm, 2 * mm},
+                              {8 * mm, 2 * mm},
+                              {8 * mm, 0},
+                              {13 * mm, 0},
+                              {13 * mm, 2 * mm},
+                              {16 * mm, 2 * mm},
+                              {16 * mm, 0},
+                              {21 * mm, 0},
+                              {21 * mm, 5 * mm},
+                              {16 * mm, 5 * mm},
+                              {16 * mm, 3 * mm},
+                              {13 * mm, 3 * mm},
+                              {13 * mm, 5 * mm},
+                              {8 * mm, 5 * mm},
+                              {8 * mm, 3 * mm},
+                              {5 * mm, 3 * mm},
+                              {5 * mm, 5 * mm},
+                              {0, 5 * mm}};
+    const Region beside_edge{rectangle(0, 0, 8 * mm, 8 * mm), rectangle(mm, 2 * mm, 2 * mm, 6 * mm, true)};
+    for (const Region& outline : {Region{three_halls}, beside_edge})
+        for (const int perimeters : {2, 3})
+            for (const bool inner_first : {false, true}) {
+                Settings settings;
+                settings.perimeters = perimeters;
+                TrackSettings tracks;
+                tracks.inner_first = inner_first;
+                const LayerPaths layer = shell_paths(outline, outline, settings, 0, tracks);
+                std::vector<int> rings;  // the outermost is 0
+                for (const ToolPath& path : layer.paths) {
+                    if (stage_of(path.kind) != PrintStage::perimeters) continue;
+                    const double far = distance(segments(path), segments(outline));
+                    rings.push_back(static_cast<int>(std::lround(far / 40000 - 0.5)));
+                }
+                INFO(perimeters << " perimeters" << (inner_first ? ", inner first" : ""));
+                CHECK(rings.size() > static_cast<std::size_t>(perimeters));
+                const auto last_inner = std::find_if(rings.rbegin(), rings.rend(), [](int j) { return j > 0; });
+                const auto first_inner = std::find_if(rings.begin(), rings.end(), [](int j) { return j > 0; });
+                if (inner_first)
+                    CHECK(std::find(rings.begin(), last_inner.base(), 0) == last_inner.base());
+                else
+                    CHECK(std::find(first_inner, rings.end(), 0) == rings.end());
+            }
+}
+
 TEST_CASE("a thin wall with a small bump stays one track") {
     const Region outline{
         {{0, 0}, {10 * mm, 0}, {10 * mm, 32000}, {510000, 32000}, {505000, 38000}, {500000, 32000}, {0, 32000}}};

@@ -11,6 +11,7 @@
 #include "ribvault/print/gap_strips.hpp"
 #include "ribvault/print/islands.hpp"
 #include "ribvault/print/medial_tracks.hpp"
+#include "ribvault/print/segment_rows.hpp"
 #include "ribvault/print/simplify.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
 
@@ -76,16 +77,66 @@ Region ring_centres(const Region& outline, int j, Unit w, bool room_only) {
     return narrow.empty() ? centres : clip(cl::ctDifference, centres, narrow);
 }
 
-/// The perimeters by ring, j = 0 outermost, each after its neighbour of the same island, if that has one. Where a ring
-/// is hardly longer than a point there is room for a dot, if nothing is printed there already.
+/// A closed perimeter among the plan's tracks.
+struct Ring {
+    std::size_t track, island;
+};
+
+/// Has a track wait for one more. It names only one that it waits for, so all of them are put in a row.
+void wait_for(std::size_t earlier, std::size_t track, LayerPlan& plan) {
+    const auto waits_for = [&](std::size_t t, std::size_t other) {
+        while (t != no_stop && t != other) t = plan.tracks[t].after;
+        return t == other;
+    };
+    const std::size_t before = plan.tracks[track].after;
+    if (waits_for(before, earlier)) return;
+    if (!waits_for(earlier, before)) {
+        std::size_t first = earlier;  // of what it waits for and `before` does not
+        while (!waits_for(before, plan.tracks[first].after)) first = plan.tracks[first].after;
+        plan.tracks[first].after = before;
+    }
+    plan.tracks[track].after = earlier;
+}
+
+/// The pairs of an inner ring and an outer one that run side by side somewhere. Where an island has several outer
+/// rings, that is where the middle of a step of the inner one is hardly farther from one than a track is wide.
+std::vector<std::pair<Ring, Ring>> side_by_side(const std::vector<Ring>& inner, const std::vector<Ring>& outer, Unit w,
+                                                const LayerPlan& plan) {
+    const auto points = [&](const Ring& ring) -> const Contour& {
+        return plan.tracks[ring.track].paths.front().points;
+    };
+    const Unit reach = w + w / 4;
+    const auto near = [reach](Point p, const SegmentRows& rows) {
+        return rows.any(p.y, p.y, [&](const Segment& s) {
+            return squared_distance(p, s).value() <= static_cast<double>(reach) * static_cast<double>(reach);
+        });
+    };
+    std::map<std::size_t, std::vector<Ring>> of_island;
+    for (const Ring& ring : outer) of_island[ring.island].push_back(ring);
+    std::map<std::size_t, SegmentRows> rows;  // by track
+    for (const auto& [island, rings] : of_island)
+        for (const Ring& ring : rings)
+            if (rings.size() > 1) rows.try_emplace(ring.track, edges_of(Region{points(ring)}), reach);
+    std::vector<std::pair<Ring, Ring>> pairs;
+    for (const Ring& ring : inner) {
+        const std::vector<Segment> steps = edges_of(Region{points(ring)});
+        const std::vector<Ring>& others = of_island[ring.island];
+        for (const Ring& other : others)
+            if (others.size() == 1 || std::any_of(steps.begin(), steps.end(), [&](const Segment& s) {
+                    return near({(s.a.x + s.b.x) / 2, (s.a.y + s.b.y) / 2}, rows.at(other.track));
+                }))
+                pairs.emplace_back(ring, other);
+    }
+    return pairs;
+}
+
+/// The perimeters by ring, j = 0 outermost, each after its neighbours of the ring before in the same island, if that
+/// has any. Where a ring is hardly longer than a point there is room for a dot, if nothing is printed there already.
 void append_perimeters(const std::vector<Region>& centres, Unit w, const TrackSettings& tracks, const Region& outline,
                        LayerPlan& plan) {
     const double width = static_cast<double>(w);
     std::optional<Islands> islands;  // where rings have neighbours
     if (centres.size() > 1) islands.emplace(outline);
-    struct Ring {
-        std::size_t track, island;
-    };
     std::vector<std::vector<Ring>> rings;
     std::vector<Point> specks;
     for (std::size_t j = 0; j < centres.size(); ++j) {
@@ -108,18 +159,14 @@ void append_perimeters(const std::vector<Region>& centres, Unit w, const TrackSe
         };
         if (std::none_of(plan.tracks.begin(), plan.tracks.end(), covers)) plan.tracks.push_back(dot(speck, w));
     }
-    if (tracks.inner_first) std::reverse(rings.begin(), rings.end());
-    for (std::size_t j = 1; j < rings.size(); ++j)
-        for (const Ring& ring : rings[j]) {
-            double nearest = std::numeric_limits<double>::infinity();
-            PlannedTrack& track = plan.tracks[ring.track];
-            const Point p = track.paths.front().points.front();
-            for (const Ring& other : rings[j - 1]) {
-                if (other.island != ring.island) continue;
-                if (const double far = distance(p, plan.tracks[other.track].paths.front().points); far < nearest)
-                    nearest = far, track.after = other.track;
-            }
-        }
+    for (std::size_t k = 1; k < rings.size(); ++k) {
+        const std::size_t j = tracks.inner_first ? rings.size() - k : k;
+        for (const auto& [inner, outer] : side_by_side(rings[j], rings[j - 1], w, plan))
+            if (tracks.inner_first)
+                wait_for(inner.track, outer.track, plan);
+            else
+                wait_for(outer.track, inner.track, plan);
+    }
 }
 
 /// The widest dot that a piece has room for, in steps of a twentieth of d; nothing when that is less than half as wide.
