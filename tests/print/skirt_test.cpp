@@ -34,6 +34,33 @@ TEST_CASE("brim: loops around every island from the outside in, the last touches
     CHECK(reach_of_skirt_and_brim({}, tracks) == 2 * mm);
 }
 
+TEST_CASE("where islands are too near for a loop of each, one brim track of its own width runs between them") {
+    TrackSettings tracks;
+    tracks.brim_width = 4 * mm;
+    const auto island = [](Unit x) -> Contour {
+        return {{x, 0}, {x + 6 * mm, 0}, {x + 6 * mm, 12 * mm}, {x, 12 * mm}};
+    };
+    for (const Unit gap : {30000, 45000, 50000, 60000, 90000, 130000, 210000}) {
+        double printed = 0;
+        const std::vector<ToolPath> brim = skirt_and_brim({island(0), island(6 * mm + gap)}, {}, tracks);
+        for (const ToolPath& path : brim)
+            for (const Segment& s : segments(path)) {
+                if (std::min(s.a.x, s.b.x) < 6 * mm || std::max(s.a.x, s.b.x) > 6 * mm + gap) continue;
+                const auto [lo, hi] = std::minmax(s.a.y, s.b.y);
+                const Unit along = std::min(hi, 10 * mm) - std::max(lo, 2 * mm);
+                printed += static_cast<double>(std::max<Unit>(0, along)) * static_cast<double>(path.width);
+            }
+        const double share = printed / static_cast<double>(8 * mm * gap);
+        INFO("gap " << gap << ": " << share << " of the room between the islands");
+        CHECK(share <= 1);
+        CHECK(share > 0.85);
+    }
+    // A slot of an island is no gap.
+    Contour plate{{0, 0}, {10 * mm, 0}, {10 * mm, 10 * mm}, {0, 10 * mm}};
+    const Contour slot{{2 * mm, 2 * mm}, {2 * mm, 8 * mm}, {250000, 8 * mm}, {250000, 2 * mm}};
+    CHECK(skirt_and_brim({plate, slot}, {}, tracks).size() == 10);
+}
+
 TEST_CASE("a brim narrower than half a track is one loop; loops around a fine outline have no fine chords") {
     TrackSettings tracks;
     tracks.brim_width = 100;

@@ -1,9 +1,11 @@
 #include "ribvault/print/skirt.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "ribvault/exact/predicates.hpp"
 #include "ribvault/print/drop_tiny_steps.hpp"
+#include "ribvault/print/medial_tracks.hpp"
 #include "ribvault/print/simplify.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
 
@@ -38,10 +40,31 @@ Contour hull_of(const Region& region) {
     return hull;
 }
 
-/// Loops at a distance around outer contours; those around holes lie inside them and are left out.
-void append_loops(const Region& around, double distance, Unit width, Unit resolution, std::vector<ToolPath>& paths) {
-    for (Contour& loop : simplify(offset(around, distance, ClipperLib::jtRound, arc_tolerance), resolution))
+/// The outer contours as loops; those around holes lie inside them and are left out.
+void append_loops(const Region& around, Unit width, Unit resolution, std::vector<ToolPath>& paths) {
+    for (Contour& loop : simplify(around, resolution))
         if (signed_area({loop}) > 0) paths.push_back({TrackKind::skirt, width, true, std::move(loop)});
+}
+
+Region round_offset(const Region& region, double distance) {
+    return offset(region, distance, ClipperLib::jtRound, arc_tolerance);
+}
+
+/// Loop k of the brim, 0 the innermost. Between islands, where there is no room for two side by side, at most 3/2
+/// widths between the loops before, one track of its own width takes their place.
+void append_brim_loop(const Region& outline, int k, Unit w, Unit resolution, std::vector<ToolPath>& paths) {
+    const double width = static_cast<double>(w);
+    const Region joined = round_offset(outline, (k + 0.75) * width);
+    Region before = round_offset(outline, k * width + 2 * arc_tolerance);
+    for (const Contour& c : outline)
+        if (signed_area({c}) < 0) before.emplace_back(c.rbegin(), c.rend());  // no brim in holes
+    before = clip(ClipperLib::ctUnion, before, {});
+    const Region strips = clip(ClipperLib::ctDifference, offset(joined, -0.75 * width, ClipperLib::jtMiter), before);
+    for (const Region& piece : connected_pieces(strips))
+        if (signed_area(piece) >= width * width / 2)
+            for (PlannedTrack& track : medial_tracks(piece, w, TrackKind::skirt))
+                std::move(track.paths.begin(), track.paths.end(), std::back_inserter(paths));
+    append_loops(offset(joined, -width / 4, ClipperLib::jtMiter), w, resolution, paths);
 }
 
 }  // namespace
@@ -60,10 +83,10 @@ std::vector<ToolPath> skirt_and_brim(const Region& object, const Settings& setti
     if (tracks.skirt_loops > 0) {
         const Region hull{hull_of(outline)};
         for (int k = tracks.skirt_loops; k-- > 0;)
-            append_loops(hull, brim * width + static_cast<double>(tracks.skirt_distance) + (k + 0.5) * width, w,
+            append_loops(round_offset(hull, (brim + k + 0.5) * width + static_cast<double>(tracks.skirt_distance)), w,
                          tracks.resolution, paths);
     }
-    for (int k = brim; k-- > 0;) append_loops(outline, (k + 0.5) * width, w, tracks.resolution, paths);
+    for (int k = brim; k-- > 0;) append_brim_loop(outline, k, w, tracks.resolution, paths);
     for (ToolPath& path : paths) drop_tiny_steps(path);
     return paths;
 }
