@@ -124,16 +124,21 @@ class External(unittest.TestCase):
     def test_a_second_tool_prints_the_supports(self):
         done = self.run_program("generate", self.table, "-o", "a.gcode", "--support", "external", "--support-extruder", "1", "--support-temperature", "190")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        tool, kind, printed, heated = 0, "", {}, False
+        tool, kind, printed, heated, layer, changes = 0, "", {}, False, -1, {}
         for line in (self.folder / "a.gcode").read_text().splitlines():
             heated = heated or line.startswith("M109 T1 S190")
-            if re.fullmatch(r"T\d+", line):
+            if line.startswith(";LAYER:"):
+                layer = int(line[7:])
+            elif re.fullmatch(r"T\d+", line):
                 tool = int(line[1:])
+                if layer >= 0:
+                    changes[layer] = changes.get(layer, 0) + 1
             elif line.startswith(";TYPE:"):
                 kind = line[6:]
             elif re.match(r"G1 X.* E", line):
                 printed.setdefault(kind, set()).add(tool)
         self.assertTrue(heated)
+        self.assertEqual(set(changes.values()), {1}, changes)  # last on even layers, first on odd ones
         self.assertEqual(printed.pop("Support material"), {1})
         self.assertEqual(set().union(*printed.values()), {0})
         self.assertEqual(self.run_program("verify", "a.gcode").returncode, 0)

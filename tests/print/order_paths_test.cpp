@@ -1,10 +1,12 @@
+#include "ribvault/print/order_paths.hpp"
+
 #include <catch2/catch.hpp>
+#include <optional>
 #include <random>
 
 #include "print/geometry.hpp"
 #include "print/random_forest.hpp"
 #include "ribvault/print/islands.hpp"
-#include "ribvault/print/order_paths.hpp"
 #include "ribvault/print/shell_paths.hpp"
 #include "ribvault/print/support_paths.hpp"
 
@@ -102,6 +104,33 @@ TEST_CASE("one island is finished before the next, perimeters before what they e
             }
             CHECK(changes == 1);
         }
+}
+
+TEST_CASE("external supports are the last of an even layer and the first of an odd one") {
+    const Region outline{square(0, 0, 20 * mm), square(30 * mm, 0, 20 * mm)};
+    for (const bool alternate : {false, true}) {
+        std::optional<bool> ended;
+        Point end{};
+        for (int number = 0; number < 4; ++number) {
+            LayerPlan plan;
+            plan.layer = number;
+            const auto add = [&](TrackKind kind, Unit x, Unit y) {
+                plan.tracks.push_back({{{kind, 40000, false, {{x, y}, {x + mm, y}}}}, Entry::either_end, no_stop});
+            };
+            // Some of them stand between the islands, behind both and before them.
+            for (const Unit x : {-5 * mm, 24 * mm, 26 * mm, 55 * mm})
+                for (const Unit y : {-9 * mm, 10 * mm, 29 * mm}) add(TrackKind::external_support, x, y);
+            for (const Unit x : {2 * mm, 32 * mm})
+                add(TrackKind::outer_perimeter, x, mm), add(TrackKind::cover, x, 5 * mm);
+            const LayerPaths layer = order_paths(std::move(plan), outline, alternate);
+            REQUIRE(layer.paths.size() == 16);
+            const auto outside = [&](std::size_t k) { return layer.paths[k].kind == TrackKind::external_support; };
+            for (std::size_t k = 0; k < 16; ++k) CHECK(outside(k) == (number % 2 == 0 ? k >= 4 : k < 12));
+            if (ended) CHECK(*ended == outside(0));
+            if (ended && alternate) CHECK(length(start_of(layer) - end) < 5 * mm);
+            ended = outside(15), end = end_of_layer(layer);
+        }
+    }
 }
 
 TEST_CASE("a layer starts near the end of the one below, on the island where that ended") {

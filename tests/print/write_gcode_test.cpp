@@ -616,6 +616,15 @@ TEST_CASE("external supports are printed by their own tool, retracted and primed
     CHECK(statistics.retractions == 1);
     CHECK(gcode_joint(nullptr, lower, map, {}, printer, statistics).find("\nT") ==
           std::string::npos);  // the header leaves T0
+    // A layer that begins with supports goes on with the tool with which the one below has ended.
+    LayerPaths turned = layer;
+    turned.layer = 5;
+    std::rotate(turned.paths.begin(), turned.paths.begin() + 1, turned.paths.end());
+    const LayerText supports_first = gcode_layer(turned, map, {}, printer);
+    CHECK(changes(supports_first.body) == std::vector<std::string>{"G1 E- T0"});
+    CHECK(supports_first.statistics.retractions == 1);
+    CHECK(gcode_joint(&upper, supports_first, map, {}, printer, statistics).find("\nT") == std::string::npos);
+    CHECK(gcode_joint(nullptr, supports_first, map, {}, printer, statistics).find("\nT2\n") != std::string::npos);
     LayerText empty;
     CHECK(gcode_joint(&empty, upper, map, {}, printer, statistics).find("\nT0\n") != std::string::npos);
     // The first use of a tool primes what the header has retracted.

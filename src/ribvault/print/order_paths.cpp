@@ -13,11 +13,12 @@ namespace {
 constexpr std::size_t stages = 2;
 using Tracks = std::vector<std::size_t>;
 
-/// The tracks of one island by stage.
+/// The tracks of one island, or all external supports, by stage.
 struct IslandTracks {
     std::array<Tracks, stages> of;
     Point anchor;  ///< where its first stage begins
     bool empty = true;
+    bool outside = false;  ///< external supports
 };
 
 Point first_point(const PlannedTrack& track) { return track.paths.front().points.front(); }
@@ -39,9 +40,11 @@ std::optional<Point> free_seam(const LayerPlan& plan, const IslandTracks& island
     return seam;
 }
 
+/// External supports are the last.
 std::vector<IslandTracks> sort_by_island(const LayerPlan& plan, const Region& outline) {
     const Islands islands(outline);
-    std::vector<IslandTracks> all(islands.size() + 1);  // the last: external supports
+    std::vector<IslandTracks> all(islands.size() + 1);
+    all.back().outside = true;
     for (std::size_t t = 0; t < plan.tracks.size(); ++t) {
         const PlannedTrack& track = plan.tracks[t];
         IslandTracks& island =
@@ -64,15 +67,18 @@ std::vector<IslandTracks> sort_by_island(const LayerPlan& plan, const Region& ou
     return all;
 }
 
+/// Islands on a short way from the rearmost one, then external supports; all that backwards, if so.
 std::vector<std::size_t> order_of_islands(const std::vector<IslandTracks>& islands, bool backwards) {
     std::vector<TourStop> stops;
     Point rear = islands.front().anchor;
     for (const IslandTracks& island : islands) {
+        if (island.outside) continue;
         stops.push_back({Entry::fixed, island.anchor, island.anchor, nullptr, no_stop});
         if (more_to_the_rear(island.anchor, rear)) rear = island.anchor;
     }
     std::vector<std::size_t> order;
     for (const Visit& v : short_tour(stops, rear, std::nullopt)) order.push_back(v.stop);
+    if (islands.back().outside) order.push_back(islands.size() - 1);
     if (backwards) std::reverse(order.begin(), order.end());
     return order;
 }
@@ -107,11 +113,11 @@ Point append_stage(LayerPlan& plan, const Tracks& tracks, Point from, std::optio
     return layer.paths.empty() ? from : end_of(layer.paths.back());
 }
 
-/// Where an island that is printed perimeters first, from its anchor, is left; the layer above, which is printed the
-/// other way round, starts there.
-Point far_end(const LayerPlan& plan, const IslandTracks& island) {
-    const std::vector<Visit> tour = tour_of(plan, island.of[1], island.anchor, std::nullopt);
-    if (tour.empty()) return island.anchor;
+/// Where an island that is printed perimeters first is left when what they enclose begins at `from`; the layer above,
+/// which is printed the other way round, starts there.
+Point far_end(const LayerPlan& plan, const IslandTracks& island, Point from) {
+    const std::vector<Visit> tour = tour_of(plan, island.of[1], from, std::nullopt);
+    if (tour.empty()) return from;
     const PlannedTrack& last = plan.tracks[island.of[1][tour.back().stop]];
     if (last.entry == Entry::anywhere) return last.paths.front().points[tour.back().way];
     return tour.back().way == 0 ? last_point(last) : first_point(last);
@@ -134,12 +140,19 @@ LayerPaths order_paths(LayerPlan plan, const Region& outline, bool alternate) {
     const std::vector<IslandTracks> islands = sort_by_island(plan, outline);
     const bool backwards = plan.layer % 2 != 0, shell_last = backwards && alternate;
     const std::vector<std::size_t> order = order_of_islands(islands, backwards);
-    const auto entry = [&](const IslandTracks& island) { return shell_last ? far_end(plan, island) : island.anchor; };
-    Point here = entry(islands[order.front()]);
+    std::vector<Point> entry(order.size());
+    for (std::size_t i = order.size(); i-- > 0;) {
+        const IslandTracks& island = islands[order[i]];
+        entry[i] = island.anchor;
+        // Where an even layer ends with external supports, they begin where the last island has ended.
+        if (shell_last)
+            entry[i] = far_end(plan, island, island.outside && i + 1 < order.size() ? entry[i + 1] : island.anchor);
+    }
+    Point here = entry.front();
     for (std::size_t i = 0; i < order.size(); ++i) {
         const IslandTracks& island = islands[order[i]];
         std::optional<Point> next;
-        if (i + 1 < order.size()) next = entry(islands[order[i + 1]]);
+        if (i + 1 < order.size()) next = entry[i + 1];
         if (shell_last) {
             here = append_stage(plan, island.of[1], here, island.of[0].empty() ? next : island.anchor, layer);
             here = append_stage(plan, island.of[0], here, next, layer);

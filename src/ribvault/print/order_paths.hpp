@@ -13,8 +13,9 @@ PrintStage stage_of(TrackKind kind);
 ///
 /// Island after island of the slice (`outline`: its rounded contours), in each the perimeters, then what they enclose
 /// (thin walls, covers, supports), from where the perimeters have ended. Every track comes after its `after`. Islands
-/// follow each other on a short way from the rearmost one, on odd layers backwards, so that a layer begins on the
-/// island on which the one below has ended.
+/// follow each other on a short way from the rearmost one, then come all external supports; on odd layers all that
+/// backwards, so that a layer begins on the island, or with the supports, with which the one below has ended: a second
+/// tool for supports is changed once a layer.
 ///
 /// With `alternate` odd layers print the perimeters last: an even layer goes from the seam to wherever that way ends,
 /// an odd one begins where it would end itself if it were even; that ends at the seam, near which the next even one
