@@ -148,6 +148,28 @@ TEST_CASE("a layer starts near the end of the one below, on the island where tha
     }
 }
 
+TEST_CASE("perimeters that may begin anywhere begin where the layer below has ended") {
+    std::optional<Point> end;
+    for (int number = 0; number < 8; ++number) {
+        LayerPlan plan;
+        plan.layer = number;
+        plan.tracks.push_back(
+            {{{TrackKind::outer_perimeter, 40000, true, square(20000, 20000, 1960000)}}, Entry::anywhere, no_stop});
+        // Walls from every corner; on each layer another one begins nearest to the perimeter.
+        for (int corner = 0; corner < 4; ++corner) {
+            const Unit far = mm + (2 * number + corner) % 4 * 10000;
+            const Unit x = corner < 2 ? far : 20 * mm - far, y = corner % 2 == 0 ? far : 20 * mm - far;
+            const Unit middle = corner % 2 == 0 ? 9 * mm : 11 * mm;
+            plan.tracks.push_back(
+                {{{TrackKind::support, 40000, false, {{x, y}, {x, middle}}}}, Entry::either_end, no_stop});
+        }
+        const LayerPaths layer = order_paths(std::move(plan), {square(0, 0, 20 * mm)}, true);
+        INFO("layer " << number);
+        if (end) CHECK(length(start_of(layer) - *end) < 3 * mm);
+        end = end_of_layer(layer);
+    }
+}
+
 TEST_CASE("seams stay where they are; tracks that may not be turned keep their direction; none is lost") {
     std::mt19937_64 random(3);
     for (int number = 0; number < 8; ++number) {

@@ -24,19 +24,22 @@ struct IslandTracks {
 Point first_point(const PlannedTrack& track) { return track.paths.front().points.front(); }
 Point last_point(const PlannedTrack& track) { return end_of(track.paths.back()); }
 
-/// Where perimeters that may be entered anywhere come nearest to what is printed inside them; nothing when they may
-/// not.
+/// Where perimeters that may be entered anywhere rather begin: next to an end of a track inside them, that most to the
+/// rear, so that it stays about there from layer to layer. Nothing when there are none of both.
 std::optional<Point> free_seam(const LayerPlan& plan, const IslandTracks& island) {
     std::optional<Point> seam;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t t : island.of[0]) {
-        const PlannedTrack& perimeter = plan.tracks[t];
-        if (perimeter.entry != Entry::anywhere || perimeter.after != no_stop) continue;
-        for (Point p : perimeter.paths.front().points)
-            for (std::size_t inside : island.of[1])
-                for (const Point q : {first_point(plan.tracks[inside]), last_point(plan.tracks[inside])})
-                    if (const double d = length(p - q); d < nearest) nearest = d, seam = p;
-    }
+    for (std::size_t inside : island.of[1])
+        for (const Point end : {first_point(plan.tracks[inside]), last_point(plan.tracks[inside])}) {
+            std::optional<Point> beside;
+            double nearest = std::numeric_limits<double>::infinity();
+            for (std::size_t t : island.of[0]) {
+                const PlannedTrack& perimeter = plan.tracks[t];
+                if (perimeter.entry != Entry::anywhere || perimeter.after != no_stop) continue;
+                for (Point p : perimeter.paths.front().points)
+                    if (const double d = length(p - end); d < nearest) nearest = d, beside = p;
+            }
+            if (beside && (!seam || more_to_the_rear(*beside, *seam))) seam = beside;
+        }
     return seam;
 }
 
