@@ -113,14 +113,15 @@ Axis axis_of(const std::vector<BoostSegment>& border, double least, double most,
         const Position a{edge.vertex0()->x(), edge.vertex0()->y()}, b{edge.vertex1()->x(), edge.vertex1()->y()};
         if (!inside(rows, {(a.x + b.x) / 2, (a.y + b.y) / 2})) continue;
         const double ra = radius(edge, a), rb = radius(edge, b);
-        if (std::max(ra, rb) < least || std::max(ra, rb) > most) continue;
+        if (std::max(ra, rb) < least || std::min(ra, rb) > most) continue;
         const auto node = [&](const Diagram::vertex_type* v, Position p, double r, Position q, double rq) {
-            if (r >= least) {
+            const double limit = std::clamp(r, least, most);
+            if (r == limit) {
                 const auto [found, added] = nodes.try_emplace(v, axis.at.size());
                 return added ? axis.add(p, r) : found->second;
             }
-            const double t = (least - r) / (rq - r);
-            return axis.add({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)}, least);
+            const double t = (limit - r) / (rq - r);
+            return axis.add({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)}, limit);
         };
         const Node na = node(edge.vertex0(), a, ra, b, rb), nb = node(edge.vertex1(), b, rb, a, ra);
         // Where the width changes, in steps of at most `step`.
@@ -159,19 +160,42 @@ double length_of(const Axis& axis, const std::vector<Node>& chain) {
     return sum;
 }
 
-/// Takes away side branches shorter than `limit`, at a blunt end both that lead to its corners.
+void remove(Axis& axis, const std::vector<Node>& chain) {
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+        std::erase_if(axis.arcs[chain[i - 1]], [&](const Axis::Arc& a) { return a.to == chain[i]; });
+        std::erase_if(axis.arcs[chain[i]], [&](const Axis::Arc& a) { return a.to == chain[i - 1]; });
+    }
+}
+
+/// Takes away side branches shorter than `limit`, at a blunt end both that lead to its corners. Where nothing else
+/// leads to a junction the longest stays, and where one chain does that is shorter than the limit too, the longest if
+/// it leads farther than two radii of the junction, so to no corner of 60 degrees or more: with it there may be a
+/// track, without it there is none.
 void prune(Axis& axis, double limit) {
-    std::vector<std::vector<Node>> branches;
+    struct Branch {
+        double length;
+        std::vector<Node> chain;  ///< up to the junction
+    };
+    std::map<Node, std::vector<Branch>> branches;  // by junction
     for (Node v = 0; v < axis.at.size(); ++v) {
         if (axis.arcs[v].size() != 1) continue;
         std::vector<Node> chain = chain_from(axis, v, 0);
-        if (axis.arcs[chain.back()].size() >= 3 && length_of(axis, chain) < limit) branches.push_back(std::move(chain));
+        const Node junction = chain.back();
+        if (axis.arcs[junction].size() < 3) continue;
+        if (const double along = length_of(axis, chain); along < limit)
+            branches[junction].push_back({along, std::move(chain)});
     }
-    for (const std::vector<Node>& chain : branches)
-        for (std::size_t i = 1; i < chain.size(); ++i) {
-            std::erase_if(axis.arcs[chain[i - 1]], [&](const Axis::Arc& a) { return a.to == chain[i]; });
-            std::erase_if(axis.arcs[chain[i]], [&](const Axis::Arc& a) { return a.to == chain[i - 1]; });
-        }
+    for (auto& [junction, at_it] : branches) {
+        const auto longest = std::max_element(at_it.begin(), at_it.end(),
+                                              [](const Branch& a, const Branch& b) { return a.length < b.length; });
+        for (auto branch = at_it.begin(); branch != at_it.end(); ++branch)
+            if (branch != longest) remove(axis, branch->chain);
+        const std::vector<Axis::Arc>& left = axis.arcs[junction];  // the longest, and what is no short branch
+        const auto shorter = [&](std::size_t k) { return length_of(axis, chain_from(axis, junction, k)) < limit; };
+        const bool leads_on = longest->length > 2 * axis.radius[junction];
+        const bool stays = left.size() == 1 || (left.size() == 2 && leads_on && shorter(0) && shorter(1));
+        if (!stays) remove(axis, longest->chain);
+    }
 }
 
 }  // namespace
