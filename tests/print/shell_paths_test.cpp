@@ -272,6 +272,72 @@ TEST_CASE("the printed shell fills slices that a thin wall crosses: what has no 
 
 namespace {
 
+/// Two blocks, 6 mm high, and a neck of this width and length between them, which leaves the left one upwards with
+/// `rise`.
+Region blocks_with_neck(Unit width, Unit along, Unit rise = 0) {
+    const Unit x0 = 5 * mm, x1 = x0 + along, low = 150000, high = low + width;
+    return {{{0, 0},
+             {x0, 0},
+             {x0, low},
+             {x1, low + rise},
+             {x1, 0},
+             {x1 + 5 * mm, 0},
+             {x1 + 5 * mm, 6 * mm},
+             {x1, 6 * mm},
+             {x1, high + rise},
+             {x0, high},
+             {x0, 6 * mm},
+             {0, 6 * mm}}};
+}
+
+}  // namespace
+
+TEST_CASE("a thin wall overlaps the perimeters it grows out of by a quarter of a track at least, inside the slice") {
+    for (const Unit width : {Unit{25000}, Unit{30000}, Unit{39000}, Unit{44000}, Unit{55000}})
+        for (const Unit rise : {Unit{0}, Unit{200000}}) {
+            INFO(width << " wide, rises by " << rise);
+            const Region outline = blocks_with_neck(width, 4 * mm, rise);
+            const LayerPaths layer = shell_paths(outline, {}, Settings{});
+            std::vector<Segment> perimeters;
+            for (const ToolPath& path : layer.paths)
+                if (path.kind == TrackKind::outer_perimeter) append_segments(path, perimeters);
+            int walls = 0;
+            for (const ToolPath& path : layer.paths) {
+                if (path.kind != TrackKind::thin_wall || length(path) < mm) continue;
+                ++walls;
+                const double half = static_cast<double>(path.width) / 2;
+                CHECK(distance(segments(path), segments(outline)) >= half - 2);
+                for (Point end : {path.points.front(), path.points.back()}) {
+                    const double far = distance({{end, end}}, perimeters);
+                    CHECK(far <= 20500);  // the perimeter's edge, to a hundredth of a track
+                    CHECK(half + 20000 - far > 9500);
+                }
+            }
+            CHECK(walls == 1);
+        }
+}
+
+TEST_CASE("where a thin wall ends at the border it stays in the slice") {
+    // A fin of 0.3 mm on a block.
+    const Region outline{{{0, 0},
+                          {5 * mm, 0},
+                          {5 * mm, 2 * mm},
+                          {9 * mm, 2 * mm},
+                          {9 * mm, 230000},
+                          {5 * mm, 230000},
+                          {5 * mm, 5 * mm},
+                          {0, 5 * mm}}};
+    for (const ToolPath& path : shell_paths(outline, {}, Settings{}).paths) {
+        if (path.kind != TrackKind::thin_wall) continue;
+        CHECK(distance(segments(path), segments(outline)) >= 15000 - 2);
+        const auto [from, to] = std::minmax(path.points.front().x, path.points.back().x);
+        CHECK(from == 5 * mm);
+        CHECK(std::abs(to - (9 * mm - 15000)) <= 2);
+    }
+}
+
+namespace {
+
 double material(const LayerPaths& layer) {
     double sum = 0;
     for (const ToolPath& path : layer.paths)

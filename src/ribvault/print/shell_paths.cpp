@@ -11,6 +11,7 @@
 #include "ribvault/print/gap_strips.hpp"
 #include "ribvault/print/islands.hpp"
 #include "ribvault/print/medial_tracks.hpp"
+#include "ribvault/print/reach_perimeters.hpp"
 #include "ribvault/print/segment_rows.hpp"
 #include "ribvault/print/simplify.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
@@ -182,19 +183,25 @@ std::optional<PlannedTrack> widest_dot(const Region& piece, Unit w) {
 }
 
 /// What is too narrow for a perimeter on both its sides, as tracks of width w; where these have no room either, of
-/// `narrower`.
+/// `narrower`. They overlap the perimeters that they touch.
 void append_thin_walls(const Region& outline, const Region& outermost, Unit w, Unit narrower, bool printed,
                        LayerPlan& plan) {
     const double width = static_cast<double>(w), smallest = width * width / 16;
     const Region filled = mitred(outermost, width / 2);
     if (signed_area(outline) - signed_area(filled) < smallest) return;
+    const NearestSegment perimeters(edges_of(outermost)), border(edges_of(outline));
+    const auto along = [&](const Region& piece, Unit of_width) {
+        std::vector<PlannedTrack> walls = medial_tracks(piece, of_width, TrackKind::thin_wall);
+        reach_perimeters(walls, perimeters, border, w);
+        return walls;
+    };
     // Ten lattice units more, so that no slivers of rounding are left.
     for (const Region& piece : connected_pieces(clip(cl::ctDifference, outline, mitred(outermost, width / 2 + 10)))) {
         const double area = signed_area(piece);
         if (area < smallest) continue;
         std::vector<PlannedTrack> walls;
-        if (printed && area >= width * width / 2) walls = medial_tracks(piece, w, TrackKind::thin_wall);
-        if (printed && walls.empty() && narrower < w) walls = medial_tracks(piece, narrower, TrackKind::thin_wall);
+        if (printed && area >= width * width / 2) walls = along(piece, w);
+        if (printed && walls.empty() && narrower < w) walls = along(piece, narrower);
         double left = 0;  // not printed
         if (walls.empty()) {
             left = area;
