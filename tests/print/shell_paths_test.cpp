@@ -348,6 +348,44 @@ double material(const LayerPaths& layer) {
 
 }  // namespace
 
+TEST_CASE("a neck as short as it is wide joins what it lies between, with the material it has room for") {
+    for (const Unit width : {Unit{30000}, Unit{36000}, Unit{42000}, Unit{50000}, Unit{58000}})
+        for (const Unit along : {Unit{80000}, Unit{90000}, Unit{110000}}) {
+            INFO(width << " wide, " << along << " long");
+            const LayerPaths layer = shell_paths(blocks_with_neck(width, along), {}, Settings{});
+            CHECK(layer.thin_places == 0);
+            int walls = 0;
+            for (const ToolPath& path : layer.paths) {
+                if (path.kind != TrackKind::thin_wall) continue;
+                const auto [from, to] = std::minmax(path.points.front().x, path.points.back().x);
+                if (to < 5 * mm - 20000 || from > 5 * mm + along + 20000) continue;
+                ++walls;
+                CHECK(path.width > width - 2010);
+                CHECK(std::abs(from - 5 * mm) <= 500);
+                CHECK(std::abs(to - 5 * mm - along) <= 500);
+            }
+            CHECK(walls == 1);
+        }
+}
+
+TEST_CASE("a dot stands in the middle of its room, a little in the perimeters beside it") {
+    // A neck wider than long has no room for a track along it.
+    const Region neck = blocks_with_neck(36000, 30000);
+    int dots = 0;
+    for (const ToolPath& path : shell_paths(neck, {}, Settings{}).paths) {
+        if (path.points.size() > 1) continue;
+        ++dots;
+        CHECK(std::abs(path.points[0].x - 5 * mm - 15000) <= 100);
+        CHECK(std::abs(path.points[0].y - 168000) <= 1100);
+        CHECK(path.width > 30000);
+        CHECK(path.width <= 36000);
+    }
+    CHECK(dots == 1);
+    const LayerPaths pin = shell_paths({rectangle(0, 0, 50000, 36000)}, {}, Settings{});
+    REQUIRE(pin.paths.size() == 1);
+    CHECK(pin.paths[0].points == std::vector<Point>{{25000, 18000}});
+}
+
 TEST_CASE("what there is no room for another perimeter in is filled between those that are there") {
     TrackSettings tracks;
     tracks.fill_gaps = GapFill::all;

@@ -200,7 +200,7 @@ void prune(Axis& axis, double limit) {
 
 }  // namespace
 
-std::vector<PlannedTrack> medial_tracks(const Region& area, Unit width, TrackKind kind) {
+std::vector<PlannedTrack> medial_tracks(const Region& area, Unit width, TrackKind kind, bool however_short) {
     std::vector<PlannedTrack> tracks;
     if (area.empty()) return tracks;
     const Point origin = bounding_box(area).lo;
@@ -209,7 +209,8 @@ std::vector<PlannedTrack> medial_tracks(const Region& area, Unit width, TrackKin
     prune(axis, d);
 
     const auto emit = [&](const std::vector<Node>& chain) {
-        if (length_of(axis, chain) < d) return;
+        const bool whole = axis.arcs[chain.front()].size() == 1 && axis.arcs[chain.back()].size() == 1;
+        if (!(however_short && whole) && length_of(axis, chain) < d) return;
         PlannedTrack track{{}, Entry::either_end, no_stop};
         const auto place = [&](Node n) {
             return origin + Point{round_to_lattice(axis.at[n].x), round_to_lattice(axis.at[n].y)};

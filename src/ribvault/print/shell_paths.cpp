@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "ribvault/exact/nearest_segment.hpp"
+#include "ribvault/exact/point_location.hpp"
 #include "ribvault/print/cover_lines.hpp"
 #include "ribvault/print/gap_strips.hpp"
 #include "ribvault/print/islands.hpp"
@@ -170,20 +171,48 @@ void append_perimeters(const std::vector<Region>& centres, Unit w, const TrackSe
     }
 }
 
+/// About the middle of an area, in it.
+Point middle_of(const Region& area) {
+    const Contour* largest = &area.front();
+    for (const Contour& c : area)
+        if (signed_area({c}) > signed_area({*largest})) largest = &c;
+    const Box box = bounding_box({*largest});
+    const Point middle = part_way(box.lo, box.hi, 0.5);
+    if (PointLocation(edges_of(area), units_per_mm / 10).locate(middle) != Side::outside) return middle;
+    return *std::min_element(largest->begin(), largest->end(),
+                             [&](Point p, Point q) { return squared_length(p - middle) < squared_length(q - middle); });
+}
+
 /// The widest dot that a piece has room for, in steps of a twentieth of d; nothing when that is less than half as wide.
 std::optional<PlannedTrack> widest_dot(const Region& piece, Unit w) {
     const Unit step = w / 20;
-    std::optional<PlannedTrack> found;
+    Unit widest = 0;
+    Region room_of_widest;
     for (Unit width = (w / 2 + step - 1) / step * step; 2 * width <= 3 * w; width += step) {
-        const Region room = mitred(piece, -static_cast<double>(width) / 2);
+        Region room = mitred(piece, -static_cast<double>(width) / 2);
         if (room.empty()) break;
-        found = dot(room.front().front(), width);
+        widest = width, room_of_widest = std::move(room);
     }
-    return found;
+    if (widest == 0) return {};
+    return dot(middle_of(room_of_widest), widest);
+}
+
+/// What a track fills, about: length by width.
+double area_of(const PlannedTrack& track) {
+    double area = 0;
+    for (const ToolPath& path : track.paths) area += length(path) * static_cast<double>(path.width);
+    return area;
+}
+
+/// Of a disc as wide as the track is anywhere.
+double area_of_dot(const PlannedTrack& track) {
+    Unit widest = 0;
+    for (const ToolPath& path : track.paths) widest = std::max(widest, path.width);
+    return std::numbers::pi / 4 * static_cast<double>(widest * widest);
 }
 
 /// What is too narrow for a perimeter on both its sides, as tracks of width w; where these have no room either, of
-/// `narrower`. They overlap the perimeters that they touch.
+/// `narrower`. They overlap the perimeters that they touch, dots by up to w / 4.
 void append_thin_walls(const Region& outline, const Region& outermost, Unit w, Unit narrower, bool printed,
                        LayerPlan& plan) {
     const double width = static_cast<double>(w), smallest = width * width / 16;
@@ -191,8 +220,9 @@ void append_thin_walls(const Region& outline, const Region& outermost, Unit w, U
     if (signed_area(outline) - signed_area(filled) < smallest) return;
     const NearestSegment perimeters(edges_of(outermost)), border(edges_of(outline));
     const auto along = [&](const Region& piece, Unit of_width) {
-        std::vector<PlannedTrack> walls = medial_tracks(piece, of_width, TrackKind::thin_wall);
+        std::vector<PlannedTrack> walls = medial_tracks(piece, of_width, TrackKind::thin_wall, true);
         reach_perimeters(walls, perimeters, border, w);
+        std::erase_if(walls, [](const PlannedTrack& wall) { return area_of(wall) < area_of_dot(wall); });
         return walls;
     };
     // Ten lattice units more, so that no slivers of rounding are left.
@@ -205,9 +235,11 @@ void append_thin_walls(const Region& outline, const Region& outermost, Unit w, U
         double left = 0;  // not printed
         if (walls.empty()) {
             left = area;
-            if (std::optional<PlannedTrack> dot = printed ? widest_dot(piece, w) : std::nullopt) {
-                const auto across = static_cast<double>(dot->paths.front().width);
-                left = std::max(0.0, area - std::numbers::pi / 4 * across * across);
+            std::optional<PlannedTrack> dot = printed ? widest_dot(piece, w) : std::nullopt;
+            if (dot) {
+                const Region room = clip(cl::ctIntersection, mitred(piece, width / 4), outline);
+                if (std::optional<PlannedTrack> joined = widest_dot(room, w)) dot = std::move(joined);
+                left = std::max(0.0, area - area_of_dot(*dot));
                 walls.push_back(std::move(*dot));
             }
         }
@@ -286,8 +318,7 @@ std::vector<PlannedTrack> strip_tracks(const Region& left, Unit w, LayerPlan& pl
         if (!along.empty()) plan.unfilled_area -= area;
         if (along.empty())
             if (std::optional<PlannedTrack> dot = widest_dot(piece, w); dot && 4 * dot->paths.front().width >= 3 * w) {
-                const auto across = static_cast<double>(dot->paths.front().width);
-                plan.unfilled_area -= std::numbers::pi / 4 * across * across;
+                plan.unfilled_area -= area_of_dot(*dot);
                 along.push_back(std::move(*dot));
             }
         std::move(along.begin(), along.end(), std::back_inserter(strips));

@@ -17,8 +17,8 @@ namespace ribvault {
 /// perimeter or dot comes within 3/4 w of it.
 ///
 /// Thin walls: what of O_i no outer perimeter fills because it is narrower than w gets medial_tracks where it is at
-/// least w / 2 wide, as far into the perimeters that they meet as reach_perimeters says; where there is room for none,
-/// the widest dot that it has room for. Places still narrower, and
+/// least w / 2 wide, as far into the perimeters that they meet as reach_perimeters says; where a dot would be more
+/// material, the widest dot that there is room for, up to w / 4 into a perimeter beside it. Places still narrower, and
 /// what a dot leaves where that is more than half, are counted in the plan with their area, as are all without
 /// `tracks.thin_walls`.
 ///
