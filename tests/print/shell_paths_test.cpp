@@ -431,6 +431,22 @@ TEST_CASE("what is too thin for a wider first layer's tracks gets those of the o
     CHECK(layer.thin_places == 0);
 }
 
+TEST_CASE("what a wider first layer's perimeters leave between them gets the strips of the other layers") {
+    Settings settings;
+    settings.perimeters = 2;
+    TrackSettings tracks;
+    tracks.first_layer_width = 80000;
+    tracks.fill_gaps = GapFill::all;
+    for (const Unit width : {Unit{190000}, Unit{200000}}) {  // two perimeters, and room for 0.3 and 0.4 mm
+        const Region bar{rectangle(0, 0, 20 * mm, width)};
+        const LayerPaths layer = shell_paths(bar, {}, settings, 0, tracks);
+        CHECK(material(layer) > 0.95 * signed_area(bar));
+        CHECK(material(layer) < 1.01 * signed_area(bar));
+        CHECK(layer.unfilled_area < 0.05 * signed_area(bar));
+        CHECK(layer.unfilled_area >= 0);
+    }
+}
+
 TEST_CASE("a pin at least half as wide as a track is printed, as a dot where it has room for nothing longer") {
     for (Unit diameter = 15000; diameter <= 70000; diameter += 1000) {
         Contour pin;

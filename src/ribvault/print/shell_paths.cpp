@@ -304,13 +304,15 @@ Region printed_covers(const LayerPlan& plan, std::size_t first_cover, double mor
 
 constexpr double apart = 10;  // lattice units: keeps Clipper away from nearly coincident borders
 
-/// Tracks in strips that are too narrow for anything else. What they fill is taken from plan.unfilled_area.
-std::vector<PlannedTrack> strip_tracks(const Region& left, Unit w, LayerPlan& plan) {
+/// Tracks in strips that are too narrow for anything else, of width w; where these have no room, of `narrower`. What
+/// they fill is taken from plan.unfilled_area.
+std::vector<PlannedTrack> strip_tracks(const Region& left, Unit w, Unit narrower, LayerPlan& plan) {
     const double width = static_cast<double>(w);
     std::vector<PlannedTrack> strips;
+    Region filled;
     // Only where a track of w / 2 has room; most strips are narrower all along.
     const Region wide = mitred(mitred(left, -width / 4), width / 4 + apart);
-    if (wide.empty()) return strips;
+    if (wide.empty() && narrower == w) return strips;
     for (const Region& piece : clip_to_pieces(cl::ctIntersection, wide, left)) {
         const double area = signed_area(piece);
         if (area < width * width / 2) continue;
@@ -321,14 +323,20 @@ std::vector<PlannedTrack> strip_tracks(const Region& left, Unit w, LayerPlan& pl
                 plan.unfilled_area -= area_of_dot(*dot);
                 along.push_back(std::move(*dot));
             }
+        if (!along.empty()) std::copy(piece.begin(), piece.end(), std::back_inserter(filled));
         std::move(along.begin(), along.end(), std::back_inserter(strips));
+    }
+    if (narrower < w) {
+        const Region rest = filled.empty() ? left : clip(cl::ctDifference, left, mitred(filled, apart));
+        std::vector<PlannedTrack> more = strip_tracks(rest, narrower, narrower, plan);
+        std::move(more.begin(), more.end(), std::back_inserter(strips));
     }
     return strips;
 }
 
 /// Strips between perimeters that leave no room for one more on both sides.
-void append_between_perimeters(const Region& outline, const std::vector<Region>& centres, Unit w, GapFill which,
-                               LayerPlan& plan) {
+void append_between_perimeters(const Region& outline, const std::vector<Region>& centres, Unit w, Unit narrower,
+                               GapFill which, LayerPlan& plan) {
     const double width = static_cast<double>(w);
     for (std::size_t j = 1; j < centres.size(); ++j) {
         const Region left = clip(cl::ctDifference, mitred(outline, -static_cast<double>(j) * width - 2 * apart),
@@ -336,15 +344,15 @@ void append_between_perimeters(const Region& outline, const std::vector<Region>&
         if (signed_area(left) < width * width / 16) continue;
         plan.unfilled_area += signed_area(left);
         if (which == GapFill::none) continue;
-        std::vector<PlannedTrack> strips = strip_tracks(left, w, plan);
+        std::vector<PlannedTrack> strips = strip_tracks(left, w, narrower, plan);
         std::move(strips.begin(), strips.end(), std::back_inserter(plan.tracks));
     }
 }
 
 /// Strips between perimeters, covers and cavity, and beside covers that do not reach their border, that are too narrow
 /// for a cover. The covers are the plan's tracks from `first_cover` on.
-void append_gap_fill(const Region& outline, const Region& cavity, int perimeters, Unit w, std::size_t first_cover,
-                     GapFill which, const Covering& covering, LayerPlan& plan) {
+void append_gap_fill(const Region& outline, const Region& cavity, int perimeters, Unit w, Unit narrower,
+                     std::size_t first_cover, GapFill which, const Covering& covering, LayerPlan& plan) {
     const double width = static_cast<double>(w);
     const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - 2 * apart), cavity);
     if (signed_area(room) < width * width / 16) return;
@@ -352,7 +360,7 @@ void append_gap_fill(const Region& outline, const Region& cavity, int perimeters
     const Region left = covers.empty() ? room : clip(cl::ctDifference, room, covers);
     plan.unfilled_area += signed_area(left);
     if (which == GapFill::none) return;
-    append_strips(strip_tracks(left, w, plan), which == GapFill::needed ? covering : Covering(), w, plan);
+    append_strips(strip_tracks(left, w, narrower, plan), which == GapFill::needed ? covering : Covering(), w, plan);
 }
 
 }  // namespace
@@ -367,13 +375,14 @@ void append_shell_paths(const Slice& slice, const Region& exact_cavity, const Se
         centres.push_back(ring_centres(outline, j, w, j == 0 ? tracks.thin_walls : tracks.fill_gaps != GapFill::none));
     append_perimeters(centres, w, tracks, outline, plan);
     append_thin_walls(outline, centres.front(), w, settings.nozzle, tracks.thin_walls, plan);
-    append_between_perimeters(outline, centres, w, tracks.fill_gaps, plan);
+    append_between_perimeters(outline, centres, w, settings.nozzle, tracks.fill_gaps, plan);
     const std::vector<Region> areas = cover_areas(
         outline, cavity, settings.perimeters, static_cast<double>(w), tracks.fill_gaps == GapFill::none);
     const std::size_t first_cover = plan.tracks.size();
     for (const Region& area : areas)
         append_covers(area, w, slice.layer % 2 != 0, tracks.covers, plan);
-    append_gap_fill(outline, cavity, settings.perimeters, w, first_cover, tracks.fill_gaps, covering, plan);
+    append_gap_fill(outline, cavity, settings.perimeters, w, settings.nozzle, first_cover, tracks.fill_gaps, covering,
+                    plan);
 }
 
 }  // namespace ribvault

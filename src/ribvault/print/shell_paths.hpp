@@ -27,6 +27,8 @@ namespace ribvault {
 /// GapFill::needed those that do not show become `plan.spare`, as append_strips finds from `covering`. The area of all
 /// that stays open is added to the plan (`unfilled_area`).
 ///
+/// What is too narrow for a w above d, walls and strips alike, gets what it would with d.
+///
 /// Covers: what the perimeters and the cavity C_i (`cavity`) leave of O_i is filled by `tracks.covers`: straight tracks
 /// of width w, w apart, at 45° on even layers and at 135° on odd ones, or closed ones along the border with
 /// medial_tracks where they leave a middle. Their centre lines keep w / 2 from the border of this area, so that their
