@@ -348,6 +348,66 @@ double material(const LayerPaths& layer) {
 
 }  // namespace
 
+TEST_CASE("a wall without room for two tracks gets one, however it lies: its perimeters leave it") {
+    // Two blocks of 4 mm joined by a wall of 12 mm; the wedge is as wide as 3/2 tracks at 8.6 mm.
+    const Unit half = 24500;
+    const Contour joined{
+        {0, 0},           {4 * mm, 0},       {4 * mm, 2 * mm - half}, {16 * mm, 2 * mm - half}, {16 * mm, 0},
+        {20 * mm, 0},     {20 * mm, 4 * mm}, {16 * mm, 4 * mm},       {16 * mm, 2 * mm + half}, {4 * mm, 2 * mm + half},
+        {4 * mm, 4 * mm}, {0, 4 * mm}};
+    const Contour wedge{{0, 0}, {14 * mm, -48891}, {14 * mm, 48891}};
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> any(0, 2 * std::numbers::pi);
+    for (int round = 0; round < 60; ++round) {
+        const double angle = any(random);
+        Contour outline;
+        for (Point p : round % 3 != 0 ? joined : wedge) {
+            const auto x = static_cast<double>(p.x), y = static_cast<double>(p.y);
+            outline.push_back({round_to_lattice(x * std::cos(angle) - y * std::sin(angle)),
+                               round_to_lattice(x * std::sin(angle) + y * std::cos(angle))});
+        }
+        INFO(round << ", turned by " << angle);
+        TrackSettings tracks;
+        tracks.fill_gaps = GapFill::all;
+        const double solid = signed_area({outline}), printed = material(shell_paths({outline}, {}, {}, 0, tracks));
+        CHECK(printed < 1.01 * solid);
+        CHECK(printed > 0.9 * solid);
+    }
+}
+
+TEST_CASE("short stubs get one track like long ones, wedges keep the perimeter around their tip") {
+    const auto block_with = [](const Contour& tip) {  // on its upper side, from right to left
+        Contour block{{0, 0}, {4 * mm, 0}, {4 * mm, 3 * mm}};
+        for (Point p : tip) block.push_back(p + Point{2 * mm, 3 * mm});
+        block.push_back({0, 3 * mm});
+        return Region{block};
+    };
+    const auto tip_of = [](const LayerPaths& layer) {  // of the outer perimeter
+        Unit top = 0;
+        for (const ToolPath& path : layer.paths)
+            if (path.kind == TrackKind::outer_perimeter)
+                for (Point p : path.points) top = std::max(top, p.y);
+        return top;
+    };
+    const LayerPaths block = shell_paths(block_with({}), {}, {});
+    for (const Unit wide : {Unit{42000}, Unit{50000}, Unit{55000}})
+        for (const Unit high : {mm, 11 * mm / 10}) {
+            INFO(wide << " units wide, " << high << " high");
+            const Contour stub{{wide / 2, 0}, {wide / 2, high}, {-wide / 2, high}, {-wide / 2, 0}};
+            const LayerPaths layer = shell_paths(block_with(stub), {}, {});
+            CHECK(std::abs(static_cast<double>(tip_of(layer) - tip_of(block))) < clipper + 10);
+            const double area = static_cast<double>(wide * high), printed = material(layer) - material(block);
+            CHECK(printed < 1.05 * area);
+            CHECK(printed > 0.4 * area);
+            CHECK(layer.thin_places == 0);
+        }
+    for (const Unit high : {Unit{120000}, 2 * mm, 3 * mm}) {
+        const LayerPaths layer = shell_paths(block_with({{30000, 0}, {0, high}, {-30000, 0}}), {}, {});
+        INFO("wedge, " << high << " units high");
+        CHECK(tip_of(layer) > tip_of(block) + high / 5);
+    }
+}
+
 TEST_CASE("a neck as short as it is wide joins what it lies between, with the material it has room for") {
     for (const Unit width : {Unit{30000}, Unit{36000}, Unit{42000}, Unit{50000}, Unit{58000}})
         for (const Unit along : {Unit{80000}, Unit{90000}, Unit{110000}}) {
@@ -404,6 +464,31 @@ TEST_CASE("what there is no room for another perimeter in is filled between thos
             CHECK(open.unfilled_area + material(open) > 0.95 * signed_area(wall));
             tracks.fill_gaps = GapFill::all;
         }
+}
+
+TEST_CASE("exactly half a track or three halves: one track, however the wall lies") {
+    TrackSettings tracks;
+    tracks.fill_gaps = GapFill::all;
+    for (const int rings : {0, 1, 2})
+        for (const Unit strip : {Unit{20000}, Unit{60000}})
+            for (const double angle : {0.0, 0.3, 0.7, 1.0, 1.3, 2.5, 2.9}) {
+                INFO(rings << " rings and " << strip << " units between them, turned by " << angle);
+                Contour wall = rectangle(0, 0, 20 * mm, 80000 * rings + strip);
+                for (Point& p : wall) {
+                    const auto x = static_cast<double>(p.x), y = static_cast<double>(p.y);
+                    p = {round_to_lattice(x * std::cos(angle) - y * std::sin(angle)),
+                         round_to_lattice(x * std::sin(angle) + y * std::cos(angle))};
+                }
+                Settings settings;
+                settings.perimeters = std::max(rings, 1);
+                const LayerPaths layer = shell_paths({wall}, {}, settings, 0, tracks);
+                const double solid = signed_area({wall});
+                CHECK(layer.paths.size() == static_cast<std::size_t>(rings + 1));
+                CHECK(material(layer) > 0.93 * solid);
+                CHECK(material(layer) < 1.01 * solid);
+                CHECK(layer.unfilled_area < 0.02 * solid);
+                CHECK(layer.thin_places == 0);
+            }
 }
 
 TEST_CASE("a round hole that a ring leaves in a cover is filled by a dot") {
@@ -768,6 +853,21 @@ TEST_CASE("concentric covers follow the border, d apart, and leave no middle unf
     }
     CHECK(material > 0.95 * mm * mm * 100);
     CHECK(material < 1.01 * mm * mm * 100);
+}
+
+TEST_CASE("concentric covers: where there is no room for two tracks side by side, no ring goes there and back") {
+    TrackSettings tracks;
+    tracks.covers = CoverPattern::concentric;
+    for (const GapFill fill : {GapFill::all, GapFill::none})
+        for (Unit width = 122000; width <= 380000; width += 6000) {
+            tracks.fill_gaps = fill;
+            const Region bar{rectangle(0, 0, 20 * mm, width)};
+            const LayerPaths layer = shell_paths(bar, {}, {}, 0, tracks);
+            INFO(width << " units wide");
+            CHECK(material(layer) < signed_area(bar) + 20000.0 * 20 * mm);  // two tracks in the room of 3/2
+            if (fill == GapFill::all)                                       // less than half a track stays open
+                CHECK(material(layer) > 0.97 * signed_area(bar) - 20000.0 * 20 * mm);
+        }
 }
 
 TEST_CASE("the first layer's tracks have its width, those above d") {

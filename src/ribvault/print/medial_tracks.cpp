@@ -95,7 +95,10 @@ std::vector<BoostSegment> border_of(const Region& area, Point origin) {
     return border;
 }
 
-/// The part of the axis inside the area whose distance to the border lies between `least` and `most`.
+constexpr double rounded = 25;  // lattice units that rounding and clearances may change on either side of a wall
+
+/// The part of the axis inside the area whose distance to the border lies between `least` and `most`; where it is one
+/// of them all along, rounding does not decide.
 Axis axis_of(const std::vector<BoostSegment>& border, double least, double most, double step) {
     Diagram diagram;
     std::vector<Segment> edges;
@@ -113,9 +116,11 @@ Axis axis_of(const std::vector<BoostSegment>& border, double least, double most,
         const Position a{edge.vertex0()->x(), edge.vertex0()->y()}, b{edge.vertex1()->x(), edge.vertex1()->y()};
         if (!inside(rows, {(a.x + b.x) / 2, (a.y + b.y) / 2})) continue;
         const double ra = radius(edge, a), rb = radius(edge, b);
-        if (std::max(ra, rb) < least || std::min(ra, rb) > most) continue;
+        const bool at_least = std::min(ra, rb) >= least - rounded && std::max(ra, rb) <= least + rounded,
+                   at_most = std::min(ra, rb) >= most - rounded && std::max(ra, rb) <= most + rounded;
+        if ((std::max(ra, rb) < least && !at_least) || (std::min(ra, rb) > most && !at_most)) continue;
         const auto node = [&](const Diagram::vertex_type* v, Position p, double r, Position q, double rq) {
-            const double limit = std::clamp(r, least, most);
+            const double limit = at_least || at_most ? r : std::clamp(r, least, most);
             if (r == limit) {
                 const auto [found, added] = nodes.try_emplace(v, axis.at.size());
                 return added ? axis.add(p, r) : found->second;

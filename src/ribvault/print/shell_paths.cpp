@@ -13,6 +13,7 @@
 #include "ribvault/print/islands.hpp"
 #include "ribvault/print/medial_tracks.hpp"
 #include "ribvault/print/reach_perimeters.hpp"
+#include "ribvault/print/ring_centres.hpp"
 #include "ribvault/print/segment_rows.hpp"
 #include "ribvault/print/simplify.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
@@ -21,9 +22,6 @@ namespace ribvault {
 namespace {
 
 namespace cl = ClipperLib;
-
-/// Dilation by a distance in lattice units, erosion by a negative one. Mitres keep at least this distance everywhere.
-Region mitred(const Region& region, double distance) { return offset(region, distance, cl::jtMiter); }
 
 /// Of a point from a closed line, rounded.
 double distance(Point p, const Contour& ring) {
@@ -57,26 +55,6 @@ void put_seam_first(Contour& ring, Seam seam) {
 
 PlannedTrack dot(Point at, Unit width) {
     return {{{TrackKind::thin_wall, width, false, {at}}}, Entry::fixed, no_stop};
-}
-
-double around(const Region& region) {
-    double sum = 0;
-    for (const Segment& e : edges_of(region)) sum += length(e);
-    return sum;
-}
-
-/// Where the centre lines of ring j run, 0 the outermost. With `room_only` not where there is no room for two of them
-/// side by side, at most 3/2 w between the rings before: that is left to a track of its own width. Tips are no such
-/// place: a track of their own would only cut them off.
-Region ring_centres(const Region& outline, int j, Unit w, bool room_only) {
-    const double width = static_cast<double>(w);
-    Region centres = mitred(outline, -(j + 0.5) * width);
-    if (!room_only) return centres;
-    const Region wide = mitred(mitred(centres, -width / 4), width / 4 + 10);
-    Region narrow;
-    for (Region& piece : clip_to_pieces(cl::ctDifference, centres, wide))
-        if (around(piece) >= 6 * width) std::move(piece.begin(), piece.end(), std::back_inserter(narrow));
-    return narrow.empty() ? centres : clip(cl::ctDifference, centres, narrow);
 }
 
 /// A closed perimeter among the plan's tracks.
@@ -255,22 +233,24 @@ void append_thin_walls(const Region& outline, const Region& outermost, Unit w, U
 std::vector<Region> cover_areas(const Region& outline, const Region& cavity, int perimeters, double width,
                                 bool narrow) {
     Region centres = clip(cl::ctDifference, mitred(outline, -(perimeters + 0.5) * width), mitred(cavity, width / 2));
-    if (!narrow) centres = clip(cl::ctIntersection, mitred(mitred(centres, -width / 4), width / 4 + 10), centres);
+    const double least = width / 4 + clip_rounding;
+    if (!narrow) centres = clip(cl::ctIntersection, mitred(mitred(centres, -least), least + 10), centres);
     return connected_pieces(std::move(centres));
 }
 
+/// Rings where they have room, tracks along the middle elsewhere.
 void append_concentric(Region area, Unit w, LayerPlan& plan) {
     const double width = static_cast<double>(w);
-    while (!area.empty()) {
-        Region next = mitred(area, -width);
-        if (next.empty())
-            for (PlannedTrack& middle : medial_tracks(mitred(area, -width / 2), w, TrackKind::cover))
-                plan.tracks.push_back(std::move(middle));
-        for (Contour& ring : area) {
+    Region room = mitred(area, width / 2);  // what the rings before leave
+    while (!room.empty()) {
+        Region rings = with_room(area, room, 0, w);
+        const Region left = clip(cl::ctDifference, room, mitred(rings, width / 2 + apart));
+        for (PlannedTrack& middle : medial_tracks(left, w, TrackKind::cover)) plan.tracks.push_back(std::move(middle));
+        room = mitred(rings, -width / 2), area = mitred(rings, -width);
+        for (Contour& ring : rings) {
             ToolPath path{TrackKind::cover, w, true, std::move(ring)};
             if (2 * length(path) >= width) plan.tracks.push_back({{std::move(path)}, Entry::anywhere, no_stop});
         }
-        area = std::move(next);
     }
 }
 
@@ -302,16 +282,16 @@ Region printed_covers(const LayerPlan& plan, std::size_t first_cover, double mor
     return printed;
 }
 
-constexpr double apart = 10;  // lattice units: keeps Clipper away from nearly coincident borders
-
 /// Tracks in strips that are too narrow for anything else, of width w; where these have no room, of `narrower`. What
 /// they fill is taken from plan.unfilled_area.
 std::vector<PlannedTrack> strip_tracks(const Region& left, Unit w, Unit narrower, LayerPlan& plan) {
     const double width = static_cast<double>(w);
     std::vector<PlannedTrack> strips;
     Region filled;
-    // Only where a track of w / 2 has room; most strips are narrower all along.
-    const Region wide = mitred(mitred(left, -width / 4), width / 4 + apart);
+    // Only where a track of w / 2 has room, counted with the 2 `apart` that the strips lack on either side; most are
+    // narrower all along.
+    const double least = width / 4 - 2 * apart - clip_rounding;
+    const Region wide = mitred(mitred(left, -least), least + apart);
     if (wide.empty() && narrower == w) return strips;
     for (const Region& piece : clip_to_pieces(cl::ctIntersection, wide, left)) {
         const double area = signed_area(piece);

@@ -31,8 +31,8 @@ namespace ribvault {
 ///
 /// Covers: what the perimeters and the cavity C_i (`cavity`) leave of O_i is filled by `tracks.covers`: straight tracks
 /// of width w, w apart, at 45° on even layers and at 135° on odd ones, or closed ones along the border with
-/// medial_tracks where they leave a middle. Their centre lines keep w / 2 from the border of this area, so that their
-/// material stays in it. Tracks shorter than w / 2 are left out.
+/// medial_tracks where two side by side have no room. Their centre lines keep w / 2 from the border of this area, so
+/// that their material stays in it. Tracks shorter than w / 2 are left out.
 ///
 /// Postcondition: centre lines of perimeters and covers lie at least w / 2 inside O_i, but for two lattice units
 /// (20 nm) of rounding; the same holds for covers and the complement of the cavity.
