@@ -23,7 +23,8 @@ int run(Written& w) {
     };
     w.job.gcode = w.gcode;
     w.job.report = path(w.report), w.job.svg = path(w.svg), w.job.html = path(w.html);
-    w.job.distances = w.job.report || w.job.html;  // the summary has none
+    w.job.distances =
+        w.job.report || w.job.html;  // the summary has none; its places are then other points of the same regions
     Progress progress(w.quiet, "");
     w.job.progress = [&](int done, int total) { progress(done, total); };
     w.job.stop = interrupted;

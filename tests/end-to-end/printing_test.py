@@ -59,6 +59,8 @@ class Printing(unittest.TestCase):
             self.assertEqual(retractions, totals["retractions"])
             self.assertAlmostEqual(travel, totals["travel_mm"], delta=0.01)
             self.assertEqual(totals["travels"], sum(layer["travels"] for layer in report["layers"]))
+            self.assertEqual(totals["bends"], sum(layer["bends"] for layer in report["layers"]))
+            self.assertGreater(totals["bends"], 0)
             self.assertIn("; estimated printing time (normal mode) = ", text)
 
     def test_profiles(self):

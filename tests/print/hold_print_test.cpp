@@ -98,6 +98,12 @@ TEST_CASE("where something would hang because a path bends, the branch gets its 
     CHECK(held.patches == 0);
     CHECK(judge_print(above, *held.printed, {}).supported);
 
+    // Where something hangs elsewhere it stays bent.
+    const PrintedLayer far =
+        print_of({track(TrackKind::support, false, {{4 * mm, 10 * mm}, {4 * mm, 10 * mm + 60000}})});
+    CHECK(hold_print(square_shell(), trunk_and_stub(), &far, {}).plan.bends == 1);
+    CHECK(hold_print(square_shell(), trunk_and_stub(), &far, {}).patches == 1);
+
     // On the branch's side it stays bent.
     const PrintedLayer beside =
         print_of({track(TrackKind::support, false, {{0, 10 * mm + 10000}, {14 * mm, 10 * mm + 10000}})});

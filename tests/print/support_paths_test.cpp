@@ -1,3 +1,6 @@
+#include "ribvault/print/support_paths.hpp"
+
+#include <array>
 #include <catch2/catch.hpp>
 #include <map>
 #include <numeric>
@@ -7,7 +10,6 @@
 #include "print/random_forest.hpp"
 #include "ribvault/error.hpp"
 #include "ribvault/print/order_paths.hpp"
-#include "ribvault/print/support_paths.hpp"
 #include "ribvault/slice/lattice_clip.hpp"
 
 using namespace ribvault;
@@ -213,6 +215,31 @@ TEST_CASE("a branch of exactly one width vanishes, a longer one or one on its fi
     CHECK(with_branch(40001, false).gap_length == 40000);
     CHECK(with_branch(10000, true).paths.size() == 2);
     CHECK(with_branch(10000, true).gaps == 0);
+}
+
+TEST_CASE("branches up to a width long that are printed from their junction are taken along where they may be") {
+    using Printed = std::array<std::size_t, 3>;  // bends, gaps, tracks
+    // A trunk to (10, 0) and at (5, 0) the branch with these edges.
+    const auto printed = [](std::vector<Point> branch, std::vector<EdgeOf> edges, bool may_bend = true) {
+        std::vector<Point> vertices{{0, 0}, {5 * mm, 0}, {10 * mm, 0}};
+        vertices.insert(vertices.end(), branch.begin(), branch.end());
+        edges.insert(edges.begin(), {{0, 1}, {1, 2}});
+        SupportForest forest = forest_of(vertices, edges);
+        for (auto [e, end] = boost::edges(forest); e != end; ++e) forest[*e].may_bend = may_bend;
+        LayerPlan plan;
+        append_support_paths(forest, Settings{}, plan);
+        return Printed{static_cast<std::size_t>(plan.bends), static_cast<std::size_t>(plan.gaps), plan.tracks.size()};
+    };
+    CHECK(printed({{5 * mm, 40000}}, {{1, 3, true}}) == Printed{1, 0, 1});
+    CHECK(printed({{5 * mm, 40001}}, {{1, 3, true}}) == Printed{0, 0, 2});
+    CHECK(printed({{5 * mm, 40000}}, {{1, 3, true}}, false) == Printed{0, 0, 2});
+    CHECK(printed({{5 * mm, 30000}}, {{1, 3}}) == Printed{0, 1, 1});  // it vanishes in its gap
+    // A branch of two walls, one that forks, and two branches at one place.
+    CHECK(printed({{5 * mm, 20000}, {5 * mm + 10000, 30000}}, {{1, 3, true}, {3, 4}}) == Printed{1, 0, 1});
+    CHECK(printed({{5 * mm, 20000}, {5 * mm + 10000, 30000}, {5 * mm - 10000, 30000}}, {{1, 3, true}, {3, 4}, {3, 5}})
+              .front() == 0);
+    CHECK(printed({{5 * mm, 30000}, {5 * mm, -30000}}, {{1, 3, true}, {1, 4, true}}) == Printed{1, 0, 1});
+    CHECK(printed({{5 * mm, 30000}, {5 * mm, -50000}}, {{1, 3, true}, {1, 4, true}}) == Printed{0, 0, 3});
 }
 
 TEST_CASE("a branch that begins on a track is no dot, however short; what begins a width away or alone may be") {

@@ -254,6 +254,28 @@ TEST_CASE("a cavity that is no cavity of its slice is refused with the place") {
     }
 }
 
+TEST_CASE("where a cavity lies is right though corners of outlines lie at the height of its first corner") {
+    const auto diamond = [](Unit x, Unit y, Unit half) {
+        return Contour{{x + half, y}, {x, y + half}, {x - half, y}, {x, y - half}};
+    };
+    const auto malformed = [&](Region outline, Region cavity) {
+        const Layer l{layer(std::move(outline), std::move(cavity))}, none = layer({frame}, {square(wide)});
+        return verify(none, l, how).malformed;
+    };
+    // Corners of the outline itself, the lowest and the highest corner of islands beside it, and one on its level.
+    const Contour own = diamond(0, 0, 900000), above = diamond(3000000, 900000, 900000),
+                  under = diamond(5000000, -900000, 900000), level = diamond(8000000, 0, 900000);
+    for (const Region& outline : {Region{own}, Region{own, above}, Region{own, under}, Region{own, level},
+                                  Region{own, above, under, level}, Region{own, reversed(diamond(600000, 0, 100000))}})
+        CHECK(malformed(outline, {diamond(0, 0, 300000)}) == "");
+    for (const Contour& outside :
+         {diamond(-2000000, 0, 300000), diamond(1300000, 0, 300000), diamond(4000000, 0, 90000)})
+        CHECK(malformed({own, above, under, level}, {outside}).find("leaves the outline") != std::string::npos);
+    // The outline's hole at the height of corners of the cavity.
+    CHECK(malformed({own, reversed(diamond(0, 0, 100000))}, {diamond(0, 0, 300000)}).find("hole") != std::string::npos);
+    CHECK(malformed({own, reversed(diamond(-500000, 0, 100000))}, {diamond(0, 0, 300000)}) == "");
+}
+
 TEST_CASE("settings without a radius and missing geometry are usage errors") {
     const Layer l = layer({frame}, {});
     CHECK_THROWS_AS(verify(l, l, settings(rho, 0)), Error);

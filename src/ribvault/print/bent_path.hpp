@@ -31,8 +31,10 @@ struct Bend {
 
 /// Bends for all of `beside` (by increasing `along`) that have tips, of a path without its first `gap`. A bend begins
 /// and ends as far from its corner as its longest branch is long (at least `least`), so it goes aside at 45°, nearer
-/// where the next branch or an end of the path is; where it would have less than half of that there is none. It adds
-/// less track than its branches are long, and none of its walls is farther from it than their length.
+/// where the next branch or an end of the path is; where it would have less than half of that there is none. Beside a
+/// straight wall it takes less track than wall and branch, where the path turns or branches lie opposite up to half of
+/// the branches' length more, and a travel less in any case. It may cut across a corner of the shell by less than the
+/// branches' length: S_i lies in the cavity, its bends are tracks.
 std::vector<Bend> bends_of(const PathCorners& corners, double gap, const std::vector<SideBranches>& beside,
                            double least);
 

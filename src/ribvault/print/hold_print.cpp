@@ -16,7 +16,7 @@
 namespace ribvault {
 namespace {
 
-constexpr int rounds = 6;  ///< of mending, each of which is followed by another look
+constexpr int rounds = 6;  ///< of laying supports otherwise, and of patches; another look follows each
 
 /// Without its isolated roots, which hold up the last stub of a wall above: they are printed where something hangs
 /// without them, as patches.

@@ -33,7 +33,7 @@ struct HeldLayer {
     LayerPlan plan;
     std::shared_ptr<const PrintedLayer> printed;  ///< the plan's extrusions
     std::vector<PrintPart> parts;  ///< what was judged over `printed`; nothing when there is no layer above
-    int closed_gaps = 0;        ///< branches printed up to their junction because the gap would have let something hang
+    int closed_gaps = 0;  ///< branches printed from their junction, or by bends, as a gap would have let something hang
     int patches = 0;            ///< short tracks added where closing gaps was not enough
     Unit patch_length = 0;      ///< length of track that patches add, lattice units; dots count as none
     std::vector<Segment> patch_tracks;  ///< their centre lines; dots as segments of no length

@@ -9,7 +9,7 @@
 
 namespace ribvault::verify {
 
-/// A track in doubles, mm. Every number is within 2^-50 of the largest coordinate of the pair of layers.
+/// A track in doubles, mm or lattice units. Every number is within 2^-50 of the largest coordinate of all.
 struct PreparedTrack {
     double ax = 0, ay = 0, bx = 0, by = 0;
     double dx = 0, dy = 0, length = 0, inverse_norm = 0;  ///< b - a; inverse_norm 0: a point as far as doubles tell
