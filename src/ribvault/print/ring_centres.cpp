@@ -36,7 +36,7 @@ double material_along(const Region& area, Unit w, const NearestSegment& rings) {
         if (!rings.empty() && rings.nearest(end).distance.value() <= reach * reach)
             sum += std::numbers::pi / 8 * static_cast<double>(width) * static_cast<double>(width);
     };
-    for (const PlannedTrack& track : medial_tracks(area, w, TrackKind::thin_wall)) {
+    for (const PlannedTrack& track : medial_tracks(area, w, TrackKind::thin_wall, true)) {
         for (const ToolPath& path : track.paths) sum += length(path) * static_cast<double>(path.width);
         add_end(track.paths.front().points.front(), track.paths.front().width);
         add_end(track.paths.back().points.back(), track.paths.back().width);
