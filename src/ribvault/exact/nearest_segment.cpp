@@ -9,14 +9,6 @@ namespace {
 
 constexpr std::uint32_t leaf_size = 4;
 
-/// Squared distance from a point to a box, rounded down far enough to be a lower bound (relative error of the three
-/// roundings is below 2^-51).
-double lower_bound(Point p, const Box& box) {
-    const double dx = static_cast<double>(std::max<Unit>({box.lo.x - p.x, p.x - box.hi.x, 0}));
-    const double dy = static_cast<double>(std::max<Unit>({box.lo.y - p.y, p.y - box.hi.y, 0}));
-    return (dx * dx + dy * dy) * (1 - 0x1p-50);
-}
-
 }  // namespace
 
 NearestSegment::NearestSegment(std::vector<Segment> segments)
@@ -66,7 +58,7 @@ NearestSegment::Hit NearestSegment::nearest(Point p) const {
     };
     Entry stack[64];
     int top = 0;
-    stack[top++] = {lower_bound(p, nodes_[0].box), 0};
+    stack[top++] = {squared_distance_below(p, nodes_[0].box), 0};
     while (top > 0) {
         const Entry entry = stack[--top];
         if (entry.bound > best_value) continue;
@@ -84,8 +76,8 @@ NearestSegment::Hit NearestSegment::nearest(Point p) const {
             }
             continue;
         }
-        Entry near{lower_bound(p, nodes_[node.first].box), node.first};
-        Entry far{lower_bound(p, nodes_[node.first + 1].box), node.first + 1};
+        Entry near{squared_distance_below(p, nodes_[node.first].box), node.first};
+        Entry far{squared_distance_below(p, nodes_[node.first + 1].box), node.first + 1};
         if (far.bound < near.bound) std::swap(near, far);
         stack[top++] = far;
         stack[top++] = near;

@@ -18,6 +18,14 @@ inline bool boxes_near(const Segment& s, const Segment& t, double reach) {
     return !apart(s.a.x, s.b.x, t.a.x, t.b.x) && !apart(s.a.y, s.b.y, t.a.y, t.b.y);
 }
 
+/// Lower bound of the squared distance of a point to a box: rounded down by more than its roundings may add (2^-51 of
+/// it). 0 inside.
+inline double squared_distance_below(Point p, const Box& box) {
+    const double dx = static_cast<double>(std::max<Unit>({box.lo.x - p.x, p.x - box.hi.x, 0}));
+    const double dy = static_cast<double>(std::max<Unit>({box.lo.y - p.y, p.y - box.hi.y, 0}));
+    return (dx * dx + dy * dy) * (1 - 0x1p-50);
+}
+
 /// A packed box tree over segments. Lighter than a segment Voronoi diagram and held against one in the tests: both give
 /// the exact nearest segment.
 class NearestSegment {

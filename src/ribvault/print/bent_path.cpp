@@ -51,8 +51,11 @@ std::vector<Point> bent_path(const PathCorners& corners, double gap, const std::
     };
     const auto follow = [&](double from, double to) {
         go_to(point_at(corners, from));
-        for (std::size_t k = 0; k < corners.at.size(); ++k)
-            if (from < corners.along[k] && corners.along[k] < to) go_to(corners.at[k]);
+        const auto after = std::upper_bound(corners.along.begin(), corners.along.end(), from);
+        for (auto k = static_cast<std::size_t>(after - corners.along.begin()); k < corners.at.size(); ++k) {
+            if (corners.along[k] >= to) break;
+            go_to(corners.at[k]);
+        }
         go_to(point_at(corners, to));
     };
     double from = gap;

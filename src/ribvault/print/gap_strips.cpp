@@ -72,11 +72,9 @@ void append_runs(const std::vector<Piece>& pieces, bool chosen, Entry entry, std
     }
 }
 
-/// What the tracks cover, about: length by width.
 double area_of(std::vector<PlannedTrack>::const_iterator from, std::vector<PlannedTrack>::const_iterator to) {
     double area = 0;
-    for (; from != to; ++from)
-        for (const ToolPath& path : from->paths) area += length(path) * static_cast<double>(path.width);
+    for (; from != to; ++from) area += area_of(*from);
     return area;
 }
 

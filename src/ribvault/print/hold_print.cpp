@@ -61,7 +61,8 @@ public:
             hanging = open();
         }
         for (int laid = 1; settings_.gaps == Gaps::proved && !hanging.empty() && laid < rounds; ++laid) {
-            const bool straightened = straighten_bends(hanging), closed = close_gaps(hanging);
+            const NearHanging near(*this, hanging);
+            const bool straightened = straighten_bends(near), closed = close_gaps(near);
             if (!straightened && !closed) break;
             lay_supports();
             look_again();
@@ -207,8 +208,7 @@ private:
     };
 
     /// Branches whose gap may be what lets something hang reach their junction from now on. Are there new ones?
-    bool close_gaps(const std::vector<HangingTrack>& open) {
-        const NearHanging hanging(*this, open);
+    bool close_gaps(const NearHanging& hanging) {
         const int before = held_.closed_gaps;
         for (auto [e, end] = edges(forest_); e != end; ++e) {
             if (forest_[*e].to_junction) continue;
@@ -228,9 +228,8 @@ private:
     }
     /// Branches under what hangs get a track of their own from now on, so that the path beside them need not bend. Are
     /// there new ones?
-    bool straighten_bends(const std::vector<HangingTrack>& open) {
+    bool straighten_bends(const NearHanging& hanging) {
         if (held_.plan.bends == 0) return false;
-        const NearHanging hanging(*this, open);
         bool any = false;
         for (auto [e, end] = edges(forest_); e != end; ++e) {
             SupportEdge& edge = forest_[*e];

@@ -14,6 +14,13 @@ struct PlannedTrack {
     std::size_t after = no_stop;  ///< the track of the plan, of the same stage and island, that must be printed earlier
 };
 
+/// What a track fills, about: length by width. Square lattice units.
+inline double area_of(const PlannedTrack& track) {
+    double area = 0;
+    for (const ToolPath& path : track.paths) area += length(path) * static_cast<double>(path.width);
+    return area;
+}
+
 /// All tracks of layer i. print/order_paths.hpp makes LayerPaths of it.
 struct LayerPlan {
     int layer = 0;

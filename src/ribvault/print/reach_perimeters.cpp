@@ -24,13 +24,13 @@ WallEnd end_of_wall(const ToolPath& path, bool at_back, Unit far) {
 class Reach {
 public:
     Reach(const NearestSegment& perimeters, const NearestSegment& outline, Unit w)
-        : perimeters_(perimeters), outline_(outline), width_(static_cast<double>(w)) {}
+        : perimeters_(perimeters), outline_(outline), w_(w), width_(static_cast<double>(w)) {}
 
     /// Where the wall goes on to; nothing when it stays.
     std::optional<Point> beyond(const WallEnd& end) const {
         const NearestSegment::Hit hit = perimeters_.nearest(end.at);
         const double far = std::sqrt(hit.distance.value());
-        if (far <= width_ / 2 || far > (width_ + static_cast<double>(end.width)) / 2 + width_ / 8) return {};
+        if (far <= width_ / 2 || far > touching(w_, end.width)) return {};
         const Point ahead = end.at - end.before;
         if (std::optional<Point> on = straight_on(end.at, ahead, far); on && has_room({end.at, *on}, end.width))
             return on;
@@ -72,7 +72,8 @@ private:
 
     const NearestSegment& perimeters_;
     const NearestSegment& outline_;
-    double width_;
+    Unit w_;
+    double width_;  ///< w_
 };
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/exact/point_location.hpp"
 #include "ribvault/print/medial_tracks.hpp"
+#include "ribvault/print/reach_perimeters.hpp"
+#include "ribvault/slice/lattice_clip.hpp"
 
 namespace ribvault {
 namespace {
@@ -19,12 +21,6 @@ double around(const Region& region) {
     return sum;
 }
 
-/// A little more than the parts is taken away: along borders that they share with the region rounding leaves slivers,
-/// which would be printed.
-Region without(const Region& region, const Region& parts) {
-    return parts.empty() ? region : clip(cl::ctDifference, region, mitred(parts, apart));
-}
-
 void append(const Region& region, Region& to) { to.insert(to.end(), region.begin(), region.end()); }
 
 /// The material of medial tracks in an area; at ends that (nearly) touch a ring with the round end, which closes the
@@ -32,12 +28,12 @@ void append(const Region& region, Region& to) { to.insert(to.end(), region.begin
 double material_along(const Region& area, Unit w, const NearestSegment& rings) {
     double sum = 0;
     const auto add_end = [&](Point end, Unit width) {
-        const double reach = static_cast<double>(w + width) / 2 + static_cast<double>(w) / 8;
+        const double reach = touching(w, width);
         if (!rings.empty() && rings.nearest(end).distance.value() <= reach * reach)
             sum += std::numbers::pi / 8 * static_cast<double>(width) * static_cast<double>(width);
     };
     for (const PlannedTrack& track : medial_tracks(area, w, TrackKind::thin_wall, true)) {
-        for (const ToolPath& path : track.paths) sum += length(path) * static_cast<double>(path.width);
+        sum += area_of(track);
         add_end(track.paths.front().points.front(), track.paths.front().width);
         add_end(track.paths.back().points.back(), track.paths.back().width);
     }
@@ -85,6 +81,10 @@ Region stubs(const Region& outline, const Region& centres, const Region& narrow,
 }
 
 }  // namespace
+
+Region without(const Region& region, const Region& parts) {
+    return parts.empty() ? region : clip(cl::ctDifference, region, mitred(parts, apart));
+}
 
 Region with_room(const Region& centres, const Region& outline, double inset, Unit w) {
     const double width = static_cast<double>(w);

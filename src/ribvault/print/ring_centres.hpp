@@ -2,15 +2,14 @@
 #pragma once
 
 #include "ribvault/exact/lattice.hpp"
-#include "ribvault/slice/lattice_clip.hpp"
 
 namespace ribvault {
 
 /// Lattice units: keeps Clipper away from nearly coincident borders.
 inline constexpr double apart = 10;
 
-/// Dilation by a distance in lattice units, erosion by a negative one. Mitres keep at least this distance everywhere.
-inline Region mitred(const Region& region, double distance) { return offset(region, distance, ClipperLib::jtMiter); }
+/// A region without parts of it and a little more around them: along borders that they share rounding leaves slivers.
+Region without(const Region& region, const Region& parts);
 
 /// The centre lines `centres` of a ring of width w but where there is no room for two of them side by side, at most
 /// 3/2 w between the rings before: that is left to a track of its own width (print/medial_tracks.hpp). Of tips shorter

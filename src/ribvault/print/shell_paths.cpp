@@ -175,13 +175,6 @@ std::optional<PlannedTrack> widest_dot(const Region& piece, Unit w) {
     return dot(middle_of(room_of_widest), widest);
 }
 
-/// What a track fills, about: length by width.
-double area_of(const PlannedTrack& track) {
-    double area = 0;
-    for (const ToolPath& path : track.paths) area += length(path) * static_cast<double>(path.width);
-    return area;
-}
-
 /// Of a disc as wide as the track is anywhere.
 double area_of_dot(const PlannedTrack& track) {
     Unit widest = 0;
@@ -203,8 +196,9 @@ void append_thin_walls(const Region& outline, const Region& outermost, Unit w, U
         std::erase_if(walls, [](const PlannedTrack& wall) { return area_of(wall) < area_of_dot(wall); });
         return walls;
     };
-    // Ten lattice units more, so that no slivers of rounding are left.
-    for (const Region& piece : connected_pieces(clip(cl::ctDifference, outline, mitred(outermost, width / 2 + 10)))) {
+    // A little more than the perimeters, so that no slivers of rounding are left.
+    for (const Region& piece :
+         connected_pieces(clip(cl::ctDifference, outline, mitred(outermost, width / 2 + apart)))) {
         const double area = signed_area(piece);
         if (area < smallest) continue;
         std::vector<PlannedTrack> walls;
@@ -234,7 +228,7 @@ std::vector<Region> cover_areas(const Region& outline, const Region& cavity, int
                                 bool narrow) {
     Region centres = clip(cl::ctDifference, mitred(outline, -(perimeters + 0.5) * width), mitred(cavity, width / 2));
     const double least = width / 4 + clip_rounding;
-    if (!narrow) centres = clip(cl::ctIntersection, mitred(mitred(centres, -least), least + 10), centres);
+    if (!narrow) centres = clip(cl::ctIntersection, mitred(mitred(centres, -least), least + apart), centres);
     return connected_pieces(std::move(centres));
 }
 
@@ -307,8 +301,7 @@ std::vector<PlannedTrack> strip_tracks(const Region& left, Unit w, Unit narrower
         std::move(along.begin(), along.end(), std::back_inserter(strips));
     }
     if (narrower < w) {
-        const Region rest = filled.empty() ? left : clip(cl::ctDifference, left, mitred(filled, apart));
-        std::vector<PlannedTrack> more = strip_tracks(rest, narrower, narrower, plan);
+        std::vector<PlannedTrack> more = strip_tracks(without(left, filled), narrower, narrower, plan);
         std::move(more.begin(), more.end(), std::back_inserter(strips));
     }
     return strips;

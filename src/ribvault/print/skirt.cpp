@@ -59,12 +59,12 @@ void append_brim_loop(const Region& outline, int k, Unit w, Unit resolution, std
     for (const Contour& c : outline)
         if (signed_area({c}) < 0) before.emplace_back(c.rbegin(), c.rend());  // no brim in holes
     before = clip(ClipperLib::ctUnion, before, {});
-    const Region strips = clip(ClipperLib::ctDifference, offset(joined, -0.75 * width, ClipperLib::jtMiter), before);
+    const Region strips = clip(ClipperLib::ctDifference, mitred(joined, -0.75 * width), before);
     for (const Region& piece : connected_pieces(strips))
         if (signed_area(piece) >= width * width / 2)
             for (PlannedTrack& track : medial_tracks(piece, w, TrackKind::skirt))
                 std::move(track.paths.begin(), track.paths.end(), std::back_inserter(paths));
-    append_loops(offset(joined, -width / 4, ClipperLib::jtMiter), w, resolution, paths);
+    append_loops(mitred(joined, -width / 4), w, resolution, paths);
 }
 
 }  // namespace

@@ -24,12 +24,6 @@ double length_of(Point from, const std::vector<Point>& via) {
     return sum;
 }
 
-double squared_distance(const Box& box, Point p) {
-    const Unit x = std::max({box.lo.x - p.x, Unit{0}, p.x - box.hi.x}),
-               y = std::max({box.lo.y - p.y, Unit{0}, p.y - box.hi.y});
-    return static_cast<double>(x) * static_cast<double>(x) + static_cast<double>(y) * static_cast<double>(y);
-}
-
 /// The vertex of a contour nearest to p.
 std::size_t nearest_vertex(const Contour& contour, Point p, double& far) {
     std::size_t best = 0;
@@ -88,7 +82,7 @@ bool TravelMap::detour(Point from, Point to, int contours_left, int& views_left,
     double nearest = std::numeric_limits<double>::infinity();
     const Point crossed = part_way(from, to, first);
     for (std::size_t k = 0; k < perimeters_.size(); ++k) {
-        if (squared_distance(boxes_[k], crossed) > nearest * nearest) continue;
+        if (squared_distance_below(crossed, boxes_[k]) > nearest * nearest) continue;
         double far = 0;
         const std::size_t vertex = nearest_vertex(perimeters_[k], crossed, far);
         if (far < nearest) nearest = far, ring = &perimeters_[k], enter = vertex;

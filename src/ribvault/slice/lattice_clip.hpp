@@ -91,4 +91,7 @@ inline Region offset(const Region& region, double delta, ClipperLib::JoinType jo
     return from_clipper(result);
 }
 
+/// Dilation by a distance in lattice units, erosion by a negative one. Mitres keep at least this distance everywhere.
+inline Region mitred(const Region& region, double distance) { return offset(region, distance, ClipperLib::jtMiter); }
+
 }  // namespace ribvault

@@ -70,9 +70,9 @@ Slice without_slivers(const Slice& slice) {
     clean.slivers_removed = true;
     // A contour without area may have any orientation, by which the offset of all would go the other way.
     Region region = clip(ClipperLib::ctUnion, slice.rounded, {});
-    region = offset(region, static_cast<double>(half_width), ClipperLib::jtMiter);
-    region = offset(region, -2.0 * static_cast<double>(half_width), ClipperLib::jtMiter);
-    region = offset(region, static_cast<double>(half_width), ClipperLib::jtMiter);
+    region = mitred(region, static_cast<double>(half_width));
+    region = mitred(region, -2.0 * static_cast<double>(half_width));
+    region = mitred(region, static_cast<double>(half_width));
     std::vector<ExactContour> contours;
     for (const Contour& contour : region) {
         ExactContour exact;

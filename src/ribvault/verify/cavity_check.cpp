@@ -140,21 +140,15 @@ public:
     /// above it.
     int winding_at(int vertex) const {
         Located v = at_vertex(problem_, vertex);
-        std::vector<std::pair<std::uint32_t, int>> crossed;  // an edge may be in several rows
-        rows_.visit(v.y.inf(), v.y.sup(), [&](std::uint32_t i) {
-            if (const int sign = crossing(edges_[i], v, vertex); sign != 0) crossed.emplace_back(i, sign);
-        });
-        std::sort(crossed.begin(), crossed.end());
-        crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
         int winding = 0;
-        for (const auto& [i, sign] : crossed) winding += sign;
+        rows_.visit(v.y.inf(), v.y.sup(), [&](std::uint32_t i) { winding += crossing(edges_[i], v, vertex); });
         return winding;
     }
 
 private:
     bool above(int end, const Located& v, int vertex) const {
         const Vertex& p = problem_.vertices[end];
-        if (p.y.inf() > v.y.sup()) return true;
+        if (p.y.inf() >= v.y.sup()) return true;
         if (p.y.sup() < v.y.inf()) return false;
         return exact_point<Rational>(p).y >= exact_point<Rational>(problem_.vertices[vertex]).y;
     }

@@ -117,17 +117,10 @@ int winding_at(const Subdivision& s, const std::vector<Track>& tracks, const std
         return side_of_edge(s, t, edges[i], x, y) == (up ? 1 : -1) ? (up ? 1 : -1) : 0;
     };
     int winding = 0;
-    if (rows.empty()) {
+    if (rows.empty())
         for (std::size_t i = 0; i < edges.size(); ++i) winding += crossing(i);
-        return winding;
-    }
-    boost::container::small_vector<std::pair<std::uint32_t, int>, 16> crossed;  // one may be in two rows
-    rows.visit(y - s.margin, y + s.margin, [&](std::uint32_t i) {
-        if (const int sign = crossing(i); sign != 0) crossed.emplace_back(i, sign);
-    });
-    std::sort(crossed.begin(), crossed.end());
-    crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
-    for (const auto& [i, sign] : crossed) winding += sign;
+    else
+        rows.visit(y - s.margin, y + s.margin, [&](std::uint32_t i) { winding += crossing(i); });
     return winding;
 }
 

@@ -29,6 +29,7 @@ public:
             static_cast<int>(std::clamp((top - low_) * static_cast<double>(count) / std::max(sum, 1e-300), 1.0, most));
         inverse_ = rows_ / std::max(top - low_, 1e-300);
         starts_.assign(static_cast<std::size_t>(rows_) + 1, 0);
+        for (std::size_t k = 0; k < count; ++k) lowest_row_.push_back(row(range(k).first));
         const auto enter = [&](const auto& put) {
             for (std::size_t k = 0; k < count; ++k) {
                 const auto [lo, hi] = range(k);
@@ -43,12 +44,15 @@ public:
         enter([&](std::size_t r, std::uint32_t k) { members_[next[r]++] = k; });
     }
 
-    /// Calls visit(k) for all that come between the heights, and for others, perhaps more than once.
+    /// Calls visit(k) once for each of those that come between the heights, and for others.
     template <class Visit>
     void visit(double from, double to, const Visit& visit) const {
         if (rows_ == 0) return;
-        const auto first = static_cast<std::size_t>(row(from)), last = static_cast<std::size_t>(row(to));
-        for (std::uint32_t i = starts_[first]; i < starts_[last + 1]; ++i) visit(members_[i]);
+        const int first = row(from), last = row(to);
+        for (int r = first; r <= last; ++r)
+            for (std::uint32_t i = starts_[static_cast<std::size_t>(r)]; i < starts_[static_cast<std::size_t>(r) + 1];
+                 ++i)
+                if (r == first || lowest_row_[members_[i]] == r) visit(members_[i]);
     }
     bool empty() const { return rows_ == 0; }
 
@@ -58,6 +62,7 @@ private:
     double low_ = 0, inverse_ = 0;
     int rows_ = 0;
     std::vector<std::uint32_t> starts_, members_;
+    std::vector<int> lowest_row_;  ///< by thing
 };
 
 }  // namespace ribvault
