@@ -84,3 +84,61 @@ TEST_CASE("a tree that is used up leaves its root as a dot; a step of nothing ch
     CHECK(dot.survives == std::vector<char>{0});
     CHECK(length(shrink_supports(stub, square(), 0).forest) == 15000);
 }
+
+TEST_CASE("neighbouring walls become one tree by their roots, and are zipped up") {
+    SupportForest comb =
+        forest_of({{{0, 1000000}, {900000, 1000000}, {0, 1079800}, {900000, 1079800}}, {0, 2}, {{0, 1}, {2, 3}}});
+    const CavityBoundary shell = square();
+    const double before = length(comb);
+    for (int layer = 0; layer < 8; ++layer) {
+        comb = shrink_supports(comb, shell, 20000).forest;
+        CHECK(component_count(comb) == (layer < 1 ? 2u : 1u));
+    }
+    // Apart, each would have lost eight steps.
+    CHECK(before - length(comb) > 2 * 2 * 8 * 20000);
+}
+
+TEST_CASE("walls of another tree, and of trees in another cavity, stay where they are") {
+    const CavityBoundary rooms =
+        prepare_boundary({rectangle(0, 0, 1000000, 2000000), rectangle(1080000, 0, 2080000, 2000000)});
+    const SupportForest sides = forest_of(
+        {{{1000000, 1000000}, {500000, 1000000}, {1080000, 1000000}, {1580000, 1000000}}, {0, 2}, {{0, 1}, {2, 3}}});
+    const ShrunkSupports shrunk = shrink_supports(sides, rooms, 20000);
+    CHECK(component_count(shrunk.forest) == 2);
+    CHECK(has_vertex(shrunk.forest, {1000000, 1000000}));
+    CHECK(has_vertex(shrunk.forest, {1080000, 1000000}));
+}
+
+TEST_CASE("fans of narrow corners at both ends of their walls keep within the step") {
+    Random g(311);
+    int zipped = 0;
+    for (int k = 0; k < 300; ++k) {
+        // A root with several walls, which end in junctions with several more, all of them narrow.
+        ForestPlan plan{{{0, 1000000}}, {0}, {}};
+        const Unit reach = pick(g, 1, 12) * 30000;
+        const auto fan = [&](std::size_t from, Unit length, Unit apart, int count) {
+            const Point at = plan.vertices[from];
+            for (int j = 0; j < count; ++j) {
+                plan.walls.push_back({from, plan.vertices.size()});
+                plan.vertices.push_back({at.x + length + pick(g, 0, 2000), at.y + (2 * j - count + 1) * apart / 2});
+            }
+        };
+        const int count = static_cast<int>(pick(g, 2, 4));
+        const Unit apart = pick(g, 1, 8) * 10000;
+        fan(0, reach, apart, count);
+        for (std::size_t v = 1; v <= static_cast<std::size_t>(count); ++v)
+            fan(v, reach, apart / static_cast<Unit>(count + 1), static_cast<int>(pick(g, 0, 4)));
+        const SupportForest forest = forest_of(plan);
+        const Unit step = pick(g, 1, 3) * 10000;
+        const ShrunkSupports shrunk = shrink_supports(forest, square(), step);
+        const NearestSegment left(centre_lines(shrunk.forest));
+        for (const Segment& s : centre_lines(forest)) {
+            INFO("fan " << k << ": " << text(s));
+            REQUIRE(within(s, left, step));
+        }
+        REQUIRE(forest_fault(shrunk.forest).empty());
+        REQUIRE(crossings(shrunk.forest).count <= crossings(forest).count);
+        zipped += num_edges(shrunk.forest) > num_edges(forest);
+    }
+    CHECK(zipped > 50);
+}

@@ -47,7 +47,7 @@ inline bool within(const Segment& s, const NearestSegment& tracks, Unit radius) 
     box.add(s.a), box.add(s.b), box.grow(radius);
     std::vector<Segment> near;
     tracks.visit(box, [&](std::uint32_t k) { near.push_back(tracks.segments()[k]); });
-    return within_detail::halve(rational(s.a), rational(s.b), near, Rational(whole(radius) * whole(radius)), 7);
+    return within_detail::halve(rational(s.a), rational(s.b), near, Rational(whole(radius) * whole(radius)), 12);
 }
 
 /// True is a proof in the same way, square by square. `bad`: where it failed.

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include "ribvault/exact/real_vector.hpp"
 #include "ribvault/vault/free_trees.hpp"
+#include "ribvault/vault/root_pairs.hpp"
 #include "ribvault/vault/segment_grid.hpp"
 #include "ribvault/vault/wall_contacts.hpp"
 
@@ -12,6 +15,7 @@ namespace ribvault {
 namespace {
 
 constexpr int sweeps = 10;
+constexpr Unit steps_apart = 10;  ///< roots farther apart than so many steps do not go towards each other
 
 class Shrinker {
 public:
@@ -32,6 +36,7 @@ public:
     ShrunkSupports run() {
         cut_between_roots();
         zip_corners();
+        pair_roots();
         for (int k = 0; k < sweeps; ++k) {
             bool moved = false;
             for (std::size_t v = 0; v < nodes_.size(); ++v)
@@ -191,9 +196,12 @@ private:
             }
         return false;
     }
-    void merge(std::size_t v, std::size_t u, std::uint32_t between) {
-        walls_[between].alive = false;
-        std::erase(nodes_[u].walls, between);
+    /// v becomes u; `between`: the wall between them, if there is one.
+    void merge(std::size_t v, std::size_t u, std::optional<std::uint32_t> between) {
+        if (between) {
+            walls_[*between].alive = false;
+            std::erase(nodes_[u].walls, *between);
+        }
         for (const std::uint32_t w : nodes_[v].walls) {
             if (w == between) continue;
             (walls_[w].a == v ? walls_[w].a : walls_[w].b) = u;
@@ -203,14 +211,95 @@ private:
             if (std::find(nodes_[u].from.begin(), nodes_[u].from.end(), f) == nodes_[u].from.end())
                 nodes_[u].from.push_back(f);
         nodes_[u].was.wide = nodes_[u].was.wide || nodes_[v].was.wide;
+        nodes_[u].was.standing = std::max(nodes_[u].was.standing, nodes_[v].was.standing);
         nodes_[v].gone = true;
         nodes_[v].walls.clear();
+    }
+
+    /// Roots that are to become one (root_pairs.hpp).
+    void pair_roots() {
+        partner_.assign(nodes_.size(), none);
+        if (!boundary_.has_shell()) return;
+        std::vector<TreeRoot> roots;
+        std::vector<std::size_t> node;
+        const std::vector<std::size_t> tree = trees();
+        for (std::size_t v = 0; v < nodes_.size(); ++v) {
+            const Node& n = nodes_[v];
+            if (!n.root || n.gone || n.free || n.stays || n.walls.size() != 1) continue;
+            roots.push_back({n.at, trunk_of(v), tree[v]});
+            node.push_back(v);
+        }
+        const std::vector<std::size_t> partner = ribvault::pair_roots(roots, boundary_, steps_apart * step_);
+        for (std::size_t r = 0; r < roots.size(); ++r)
+            if (partner[r] != no_root) partner_[node[r]] = node[partner[r]];
+    }
+    /// For every vertex one of its tree, the same for all of it.
+    std::vector<std::size_t> trees() const {
+        std::vector<std::size_t> up(nodes_.size());
+        std::iota(up.begin(), up.end(), std::size_t{0});
+        const auto top = [&](std::size_t v) {
+            while (up[v] != v) v = up[v] = up[up[v]];
+            return v;
+        };
+        for (const Wall& w : walls_)
+            if (w.alive) up[top(w.a)] = top(w.b);
+        for (std::size_t v = 0; v < up.size(); ++v) up[v] = top(v);
+        return up;
+    }
+    /// From a vertex with one wall to the first junction or the tip.
+    double trunk_of(std::size_t v) const {
+        std::uint32_t w = nodes_[v].walls.front();
+        double sum = 0;
+        for (;;) {
+            const std::size_t u = other(w, v);
+            sum += length(nodes_[u].at - nodes_[v].at);
+            const std::vector<std::uint32_t>& walls = nodes_[u].walls;
+            if (walls.size() != 2) return sum;
+            w = walls[walls.front() == w ? 1 : 0], v = u;
+        }
+    }
+    /// A place on the shell about `at`.
+    Point on_shell(Vec at) const {
+        const Point p = rounded(at);
+        const Segment& edge = boundary_.edges.segments()[boundary_.edges.nearest(p).index];
+        return place_root(nearest_point(p, edge), boundary_);
+    }
+
+    /// A root goes towards its partner; where both can be at the same place they become one.
+    bool approach(std::size_t v) {
+        const std::size_t u = partner_[v];
+        const Vec here = vec(nodes_[v].at), there = vec(nodes_[u].at);
+        const double gap = norm(there - here);
+        const Point middle = on_shell(0.5 * (here + there));
+        if (reachable(nodes_[v], middle) && reachable(nodes_[u], middle)) {
+            const Point was = nodes_[u].at;
+            if (collides(u, middle, none)) return false;
+            nodes_[u].at = middle;
+            if (collides(v, middle, none) || runs_over(v, u)) {
+                nodes_[u].at = was;
+                return false;
+            }
+            merge(v, u, {});
+            partner_[v] = partner_[u] = none;
+            return true;
+        }
+        double reach = std::min(gap / 2, static_cast<double>(step_) - 4);
+        for (int attempt = 0; attempt < 3; ++attempt, reach /= 2) {
+            const Point p = on_shell(here + (reach / gap) * (there - here));
+            if (p == nodes_[v].at || !reachable(nodes_[v], p) || length(nodes_[u].at - p) >= gap - 1 ||
+                collides(v, p, none))
+                continue;
+            nodes_[v].at = p;
+            return true;
+        }
+        return false;
     }
 
     /// A root goes along the shell towards the point that makes its walls shortest.
     bool slide(std::size_t v) {
         const Node& node = nodes_[v];
         if (node.walls.size() != 1) return false;
+        if (partner_[v] != none) return approach(v);
         const Point neighbour = nodes_[other(node.walls[0], v)].at;
         const Segment& nearest = boundary_.edges.segments()[boundary_.edges.nearest(neighbour).index];
         const Vec here = vec(node.at), wish = vec(nearest_point(neighbour, nearest));
@@ -218,9 +307,7 @@ private:
         double reach = std::min(norm(wish - here), static_cast<double>(step_) - 4);
         if (norm(wish - here) < 2) return false;
         for (int attempt = 0; attempt < 3; ++attempt, reach /= 2) {
-            const Point beside = rounded(here + (reach / norm(wish - here)) * (wish - here));
-            const Segment& edge = boundary_.edges.segments()[boundary_.edges.nearest(beside).index];
-            const Point p = place_root(nearest_point(beside, edge), boundary_);
+            const Point p = on_shell(here + (reach / norm(wish - here)) * (wish - here));
             if (p == node.at || !reachable(node, p) || length(neighbour - p) >= before - 1 || collides(v, p, none))
                 continue;
             nodes_[v].at = p;
@@ -285,6 +372,7 @@ private:
     /// walls get a common beginning that grows from layer to layer.
     void zip_corners() {
         const std::size_t n = nodes_.size();
+        std::vector<char> zipped(walls_.size(), 0);  // once: its other points have moved by then
         for (std::size_t v = 0; v < n; ++v) {
             if (nodes_[v].gone || nodes_[v].stays || nodes_[v].walls.size() < (nodes_[v].root ? 2u : 4u)) continue;
             std::vector<std::pair<double, std::uint32_t>> around;
@@ -302,15 +390,22 @@ private:
             }
             if (best == around.size()) continue;
             const std::uint32_t w1 = around[best].second, w2 = around[(best + 1) % around.size()].second;
+            if (zipped[w1] || zipped[w2]) continue;
             const std::size_t a = other(w1, v), b = other(w2, v);
             const Vec here = vec(nodes_[v].at), da = vec(nodes_[a].at) - here, db = vec(nodes_[b].at) - here;
-            const Vec bisector = (1 / norm(da)) * da + (1 / norm(db)) * db;
-            const double reach = std::min({static_cast<double>(step_) - 2, 0.5 * norm(da), 0.5 * norm(db)});
-            if (reach < 4 || norm(bisector) < 1e-9) continue;
-            const Point p = rounded(here + (reach / norm(bisector)) * bisector);
+            const double la = norm(da), lb = norm(db);
+            if (std::min(la, lb) < 8) continue;
+            // What lies as far from v on both walls meets in the middle.
+            const Vec ua = (1 / la) * da, ub = (1 / lb) * db;
+            const double sine = norm(ua - ub) / 2, farthest = 0.5 * std::min(la, lb);
+            const double reach =
+                sine * farthest > static_cast<double>(step_) - 2 ? (static_cast<double>(step_) - 2) / sine : farthest;
+            if (reach < 4) continue;
+            const Point from_a = rounded(here + reach * ua), from_b = rounded(here + reach * ub),
+                        p = rounded(here + (reach / 2) * (ua + ub));
             if (p == nodes_[v].at || p == nodes_[a].at || p == nodes_[b].at) continue;
             const double saved =
-                norm(da) + norm(db) - norm(vec(nodes_[a].at) - vec(p)) - norm(vec(nodes_[b].at) - vec(p)) - reach;
+                la + lb - norm(vec(nodes_[a].at) - vec(p)) - norm(vec(nodes_[b].at) - vec(p)) - norm(vec(p) - here);
             if (saved <= 1) continue;
             // The corner is empty between the two walls, but another wall may reach into it.
             bool free = true;
@@ -321,8 +416,9 @@ private:
             }
             if (!free) continue;
             const std::size_t joint = nodes_.size();
-            nodes_.push_back({p, false, {nodes_[v].at}, {w1, w2}, vertex_between(nodes_[v].was, nodes_[v].was, p)});
+            nodes_.push_back({p, false, {from_a, from_b}, {w1, w2}, vertex_between(nodes_[v].was, nodes_[v].was, p)});
             for (const std::uint32_t w : {w1, w2}) {
+                zipped[w] = 1;
                 (walls_[w].a == v ? walls_[w].a : walls_[w].b) = joint;
                 std::erase(nodes_[v].walls, w);
             }
@@ -363,6 +459,7 @@ private:
     std::vector<Node> nodes_;
     std::vector<Wall> walls_;
     std::vector<std::pair<std::size_t, std::size_t>> cut_;
+    std::vector<std::size_t> partner_;  ///< of a root, the one it goes towards; none
     std::size_t input_walls_ = 0;
     SegmentGrid grid_;
 };
