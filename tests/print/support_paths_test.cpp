@@ -19,18 +19,21 @@ namespace {
 
 constexpr Unit mm = units_per_mm;
 
-LayerPaths support_paths(const SupportForest& forest) {
+/// With the gaps of Section 4.4 as the paper has them, or as they are printed by default.
+LayerPlan plan_of(const SupportForest& forest, Gaps gaps = Gaps::paper) {
+    Settings settings;
+    settings.gaps = gaps;
     LayerPlan plan;
-    append_support_paths(forest, Settings{}, plan);
-    return order_paths(std::move(plan), {});
+    append_support_paths(forest, settings, plan);
+    return plan;
 }
 
+LayerPaths support_paths(const SupportForest& forest) { return order_paths(plan_of(forest), {}); }
+
 /// The paths as they were planned, outwards from their junctions, before travel turns and sorts them.
-std::vector<std::vector<Point>> planned(const SupportForest& forest) {
-    LayerPlan plan;
-    append_support_paths(forest, Settings{}, plan);
+std::vector<std::vector<Point>> planned(const SupportForest& forest, Gaps gaps = Gaps::paper) {
     std::vector<std::vector<Point>> all;
-    for (const PlannedTrack& track : plan.tracks) all.push_back(track.paths.at(0).points);
+    for (const PlannedTrack& track : plan_of(forest, gaps).tracks) all.push_back(track.paths.at(0).points);
     return all;
 }
 
@@ -294,6 +297,57 @@ TEST_CASE("a tree with several roots starts at the first and ends at the others"
 TEST_CASE("several branches of one root: the first starts at it, the next one width away") {
     CHECK(planned(forest_of({{0, 0}, {0, 5 * mm}, {3 * mm, 0}}, {{0, 1}, {0, 2}})) ==
           std::vector<std::vector<Point>>{{{0, 0}, {0, 5 * mm}}, {{40000, 0}, {3 * mm, 0}}});
+}
+
+TEST_CASE("by default one path runs through a root of several walls, from the tip of the second longest way") {
+    using Paths = std::vector<std::vector<Point>>;
+    const auto plan = [](const std::vector<EdgeOf>& edges) {
+        std::vector<Point> star{{0, 0}, {0, 5 * mm}, {3 * mm, 0}, {-2 * mm, 0}, {3 * mm, 2 * mm}};
+        star.resize(edges.size() + 1);
+        return plan_of(forest_of(star, edges), Gaps::proved);
+    };
+    const auto paths = [](const LayerPlan& plan) {
+        Paths all;
+        for (const PlannedTrack& track : plan.tracks) all.push_back(track.paths.at(0).points);
+        return all;
+    };
+    const LayerPlan three = plan({{0, 1}, {0, 2}, {0, 3}});
+    CHECK(paths(three) == Paths{{{3 * mm, 0}, {0, 0}, {0, 5 * mm}}, {{-40000, 0}, {-2 * mm, 0}}});
+    CHECK(three.tracks[0].entry == Entry::either_end);
+    CHECK(three.tracks[1].after == 0);
+    CHECK(three.gaps == 1);
+    // What leaves it is left aside on both sides of the root.
+    const LayerPlan forked = plan({{0, 1}, {0, 2}, {2, 4}, {2, 3}});
+    CHECK(paths(forked) ==
+          Paths{{{0, 5 * mm}, {0, 0}, {3 * mm, 0}, {-2 * mm, 0}}, {{3 * mm, 40000}, {3 * mm, 2 * mm}}});
+    CHECK(forked.tracks[1].after == 0);
+    // A way on its first layer comes second; of two such each has its own path, from the root.
+    const LayerPlan one_new = plan({{0, 1}, {0, 2, true}});
+    CHECK(paths(one_new) == Paths{{{0, 5 * mm}, {0, 0}, {3 * mm, 0}}});
+    CHECK(one_new.tracks[0].entry == Entry::fixed);
+    const LayerPlan both_new = plan({{0, 1, true}, {0, 2, true}});
+    CHECK(paths(both_new) == Paths{{{0, 0}, {0, 5 * mm}}, {{0, 0}, {3 * mm, 0}}});
+}
+
+TEST_CASE("paths through roots print the same walls with fewer tracks") {
+    std::mt19937_64 random(88);
+    int saved = 0;
+    for (int round = 0; round < 40; ++round) {
+        const SupportForest forest = random_forest(random, 1 + round % 5, 5 + round, mm, 5 * mm, 0.2);
+        const LayerPlan paper = plan_of(forest), proved = plan_of(forest, Gaps::proved);
+        const auto track = [](const LayerPlan& plan) {
+            double sum = 0;
+            for (const PlannedTrack& t : plan.tracks) sum += length(t.paths.at(0));
+            return sum + static_cast<double>(plan.gap_length);
+        };
+        CHECK(track(proved) == Approx(length(forest)).margin(2 * proved.gaps + 1));
+        CHECK(track(paper) == Approx(length(forest)).margin(2 * paper.gaps + 1));
+        REQUIRE(proved.tracks.size() <= paper.tracks.size());
+        saved += static_cast<int>(paper.tracks.size() - proved.tracks.size());
+        for (std::size_t t = 0; t < proved.tracks.size(); ++t)
+            CHECK((proved.tracks[t].after == no_stop || proved.tracks[t].after < t));
+    }
+    CHECK(saved > 40);
 }
 
 TEST_CASE("trees follow each other without going back and forth") {

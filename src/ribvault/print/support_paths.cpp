@@ -166,54 +166,126 @@ std::vector<Bend> take_along(const RootedForest& f, const std::vector<Vertex>& v
 
 TrackKind kind_of(const SupportVertex& root) { return root.outside ? TrackKind::external_support : TrackKind::support; }
 
-void append_tree(RootedForest& f, Vertex root, LayerPlan& plan) {
-    std::vector<Branch> left;
-    std::vector<Vertex> children, vertices;
-    std::vector<std::vector<Vertex>> aside;  // by vertex of a path the subtrees into which it does not go on
-    children_by_rank(f, root, children);
-    for (std::size_t i = children.size(); i-- > 0;) left.push_back({root, children[i]});
-    while (!left.empty()) {
-        const Branch branch = left.back();
-        left.pop_back();
-        vertices.assign({branch.junction, branch.into});
-        PathCorners corners{{f.at(branch.junction), f.at(branch.into)}, {0, f.edge_length[branch.into]}};
-        aside.assign(2, {});
-        for (children_by_rank(f, branch.into, children); !children.empty();
-             children_by_rank(f, vertices.back(), children)) {
-            aside.back().assign(children.begin() + 1, children.end());
-            vertices.push_back(children.front());
-            corners.at.push_back(f.at(children.front()));
-            corners.along.push_back(corners.along.back() + f.edge_length[children.front()]);
-            aside.emplace_back();
+/// A way down a tree, with what it leaves aside.
+struct Way {
+    std::vector<Vertex> vertices;
+    PathCorners corners;
+    std::vector<std::vector<Vertex>> aside;  ///< by vertex the subtrees into which it does not go on
+};
+
+/// From v into w and on along the longest reach to a tip.
+Way longest_way(const RootedForest& f, Vertex v, Vertex w) {
+    Way way{{v, w}, {{f.at(v), f.at(w)}, {0, f.edge_length[w]}}, {{}, {}}};
+    std::vector<Vertex> children;
+    for (children_by_rank(f, w, children); !children.empty(); children_by_rank(f, way.vertices.back(), children)) {
+        const Vertex next = children.front();
+        way.aside.back().assign(children.begin() + 1, children.end());
+        way.vertices.push_back(next);
+        way.corners.at.push_back(f.at(next));
+        way.corners.along.push_back(way.corners.along.back() + f.edge_length[next]);
+        way.aside.emplace_back();
+    }
+    return way;
+}
+
+bool lies_on_walls(const RootedForest& f, const Way& way) {
+    return std::none_of(way.vertices.begin() + 1, way.vertices.end(), [&](Vertex v) { return f.first_layer[v]; });
+}
+
+/// From the tip of one way to that of another one from the same vertex.
+Way through(const Way& from, const Way& to) {
+    Way whole{{from.vertices.rbegin(), from.vertices.rend()},
+              {{from.corners.at.rbegin(), from.corners.at.rend()}, {}},
+              {from.aside.rbegin(), from.aside.rend()}};
+    const double first = from.corners.along.back();
+    for (auto along = from.corners.along.rbegin(); along != from.corners.along.rend(); ++along)
+        whole.corners.along.push_back(first - *along);
+    for (std::size_t k = 1; k < to.vertices.size(); ++k) {
+        whole.vertices.push_back(to.vertices[k]);
+        whole.corners.at.push_back(to.corners.at[k]);
+        whole.corners.along.push_back(first + to.corners.along[k]);
+        whole.aside.push_back(to.aside[k]);
+    }
+    return whole;
+}
+
+class TreePaths {
+public:
+    TreePaths(RootedForest& f, Vertex root, LayerPlan& plan) : f_(f), root_(root), plan_(plan) {}
+
+    void append(bool through_root) {
+        std::vector<Vertex> children;
+        children_by_rank(f_, root_, children);
+        if (through_root && children.size() > 1 && run_through(children[0], children[1]))
+            children.erase(children.begin(), children.begin() + 2);
+        leave(root_, children);
+        while (!left_.empty()) {
+            const Branch branch = left_.back();
+            left_.pop_back();
+            print(branch);
         }
-        const double whole = f.edge_length[branch.into] + f.reach[branch.into];
-        const bool first_layer = f.first_layer[branch.into];
-        const double gap = first_layer || f.to_junction[branch.into] ? 0 : f.gap[branch.junction];
+    }
+
+private:
+    /// To be printed before what was left earlier.
+    void leave(Vertex junction, const std::vector<Vertex>& subtrees) {
+        for (std::size_t i = subtrees.size(); i-- > 0;) left_.push_back({junction, subtrees[i]});
+    }
+    void leave_aside(const Way& way) {
+        for (std::size_t k = 0; k < way.vertices.size(); ++k) leave(way.vertices[k], way.aside[k]);
+    }
+
+    /// The root's two longest ways as one path, if it can begin at a tip.
+    bool run_through(Vertex first, Vertex second) {
+        const Way ways[] = {longest_way(f_, root_, first), longest_way(f_, root_, second)};
+        const bool begins[] = {lies_on_walls(f_, ways[0]), lies_on_walls(f_, ways[1])};
+        if (!begins[0] && !begins[1]) return false;
+        Way whole = begins[1] ? through(ways[1], ways[0]) : through(ways[0], ways[1]);
+        const std::vector<Point> points = points_along(whole, 0);
+        for (const Way& way : ways) set_gaps_along(f_, way.vertices, 0, true);
+        for (const Vertex v : whole.vertices) f_.printed_by[v] = plan_.tracks.size();
+        add(points, begins[0] && begins[1] ? Entry::either_end : Entry::fixed, no_stop, false);
+        leave_aside(whole);
+        return true;
+    }
+
+    void print(const Branch& branch) {
+        Way way = longest_way(f_, branch.junction, branch.into);
+        const double whole = way.corners.along.back();
+        const double gap = f_.first_layer[branch.into] || f_.to_junction[branch.into] ? 0 : f_.gap[branch.junction];
         std::vector<Point> points;
-        if (whole > gap) {
-            const std::vector<Bend> bends = take_along(f, vertices, corners, gap, aside);
-            plan.bends += static_cast<int>(bends.size());
-            points = bent_path(corners, gap, bends);
-        }
-        for (std::size_t k = 1; k < vertices.size(); ++k)
-            for (std::size_t i = aside[k].size(); i-- > 0;) left.push_back({vertices[k], aside[k][i]});
+        if (whole > gap) points = points_along(way, gap);
+        leave_aside(way);
         const bool printed = points.size() > 1;
         if (gap > 0 && whole > 0) {
-            ++plan.gaps;
-            plan.gap_length += round_to_lattice(printed ? gap : whole);
+            ++plan_.gaps;
+            plan_.gap_length += round_to_lattice(printed ? gap : whole);
         }
-        const bool on_track = gap <= 0 && f.gap[branch.junction] == static_cast<double>(f.width);
-        set_gaps_along(f, vertices, gap, printed);
-        const std::size_t above = f.printed_by[branch.junction], own = printed ? plan.tracks.size() : above;
-        for (std::size_t i = 1; i < vertices.size(); ++i) f.printed_by[vertices[i]] = own;
-        if (!printed) continue;
-        if (above == no_stop) f.printed_by[branch.junction] = own;
-        const bool lies_on_walls =
-            std::none_of(vertices.begin() + 1, vertices.end(), [&](Vertex v) { return f.first_layer[v]; });
-        const Entry entry = lies_on_walls ? Entry::either_end : Entry::fixed;
-        plan.tracks.push_back({{{kind_of(f.forest[root]), f.width, false, std::move(points), on_track}}, entry, above});
+        const bool on_track = gap <= 0 && f_.gap[branch.junction] == static_cast<double>(f_.width);
+        set_gaps_along(f_, way.vertices, gap, printed);
+        const std::size_t above = f_.printed_by[branch.junction], own = printed ? plan_.tracks.size() : above;
+        for (std::size_t i = 1; i < way.vertices.size(); ++i) f_.printed_by[way.vertices[i]] = own;
+        if (!printed) return;
+        if (above == no_stop) f_.printed_by[branch.junction] = own;
+        add(points, lies_on_walls(f_, way) ? Entry::either_end : Entry::fixed, above, on_track);
     }
-}
+
+    /// With the bends for short branches, which are no longer among those left aside.
+    std::vector<Point> points_along(Way& way, double gap) {
+        const std::vector<Bend> bends = take_along(f_, way.vertices, way.corners, gap, way.aside);
+        plan_.bends += static_cast<int>(bends.size());
+        return bent_path(way.corners, gap, bends);
+    }
+    void add(std::vector<Point> points, Entry entry, std::size_t after, bool on_track) {
+        plan_.tracks.push_back(
+            {{{kind_of(f_.forest[root_]), f_.width, false, std::move(points), on_track}}, entry, after});
+    }
+
+    RootedForest& f_;
+    Vertex root_;
+    LayerPlan& plan_;
+    std::vector<Branch> left_;
+};
 
 }  // namespace
 
@@ -226,7 +298,7 @@ void append_support_paths(const SupportForest& forest, const Settings& settings,
         if (out_degree(v, forest) == 0)
             plan.tracks.push_back({{{kind_of(forest[v]), settings.nozzle, false, {f.at(v)}}}, Entry::fixed, no_stop});
         else
-            append_tree(f, v, plan);
+            TreePaths(f, v, plan).append(settings.gaps == Gaps::proved);
     }
     for (Vertex v = 0; v < num_vertices(forest); ++v)
         if (!f.seen[v]) throw_not_a_forest(plan.layer, f.at(v), "has no root");
