@@ -3,7 +3,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "grown_scene.hpp"
+#include "ribvault/vault/shrink_supports.hpp"
+
 using namespace ribvault;
+using namespace ribvault::test;
 
 namespace {
 
@@ -125,6 +129,59 @@ TEST_CASE("wide trees are drawn back from their tips, along the longest way, and
     CHECK(length(tapered_trees(forest, settings)) == Approx(6.0 * mm - 40000 + 25000));
     for (auto [v, last] = vertices(forest); v != last; ++v) forest[*v].wide = false;
     CHECK(length(tapered_trees(forest, settings)) == Approx(length(forest)));
+}
+
+TEST_CASE("tips are drawn back by less where the ends above would be left without a wall in reach") {
+    Settings settings;
+    settings.wall_lines = 2;
+    SupportForest forest = wall(false, 0, 0);  // from (0, 0) to (10, 0)
+    forest[0].wide = forest[1].wide = true;
+    const auto end_under = [&](Point above) {
+        const SupportForest left = tapered_trees(forest, settings, {above});
+        REQUIRE(num_edges(left) == 1);
+        return left[1].at;
+    };
+    CHECK(end_under({5 * mm, 0}) == Point{10 * mm - 20000, 0});
+    CHECK(end_under({10 * mm, 0}) == Point{10 * mm - 20000, 0});  // 0.2 mm from the end that is left
+    CHECK(end_under({10 * mm + 1, 0}) == Point{10 * mm, 0});
+    CHECK(end_under({10 * mm - 10000, 19000}) == Point{10 * mm - 10000, 0});
+    CHECK(end_under({10 * mm, 30000}) == Point{10 * mm - 20000, 0});  // out of the whole wall's reach
+    // Over the tip of a branch that is drawn back wholly: it stays, and so does the way to it.
+    const std::size_t joint = 1, branch = add_vertex(forest);
+    forest[branch].at = {10 * mm - 10000, 10000}, forest[branch].wide = true;
+    add_edge(joint, branch, forest);
+    CHECK(length(tapered_trees(forest, settings)) == Approx(10 * mm - 20000 + 14142).margin(2));
+    CHECK(length(tapered_trees(forest, settings, {{10 * mm - 10000, 29000}})) == Approx(10 * mm + 14142).margin(2));
+}
+
+TEST_CASE("on the way down the ends of wide trees always have what is left of the next ones within reach") {
+    Random g(2027);
+    Settings settings;
+    settings.wall_lines = 3;
+    int layers = 0, far = 0;
+    for (int k = 0; k < 12; ++k) {
+        GrownScene scene(g);
+        SupportForest forest = scene.forest;
+        std::vector<Point> above;
+        for (int layer = 0; layer < 12 && num_edges(forest) > 0; ++layer, ++layers) {
+            for (auto [v, end] = vertices(forest); v != end; ++v) forest[*v].wide = true;
+            const NearestSegment whole(centre_lines(forest)), drawn_back(centre_lines(tapered_trees(forest, settings)));
+            const SupportForest left = tapered_trees(forest, settings, above);
+            const NearestSegment walls(centre_lines(left));
+            for (const Point p : above) {
+                const auto in_reach = [&](const NearestSegment& by) {
+                    return !by.empty() && by.nearest(p).distance.value() <= 20000.0 * 20000.0;
+                };
+                if (!in_reach(whole)) continue;  // what has shrunk to a dot
+                REQUIRE(in_reach(walls));
+                far += !in_reach(drawn_back);
+            }
+            above = ends_of_wide_trees(left);
+            forest = shrink_supports(forest, scene.boundary, 20000).forest;
+        }
+    }
+    CHECK(layers > 80);
+    CHECK(far > 50);
 }
 
 TEST_CASE("of a tree that is all tip one line is printed, but where it stands free") {

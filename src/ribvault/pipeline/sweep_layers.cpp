@@ -114,7 +114,10 @@ private:
         const bool below_known = over_gap && newest && newest->outside->walls;
         const PrintOverGap* print_over_gap = over_gap ? find_print_over_gap(layer) : nullptr;
         std::optional<SupportForest> tapered;
-        if (settings_.wall_lines > 1) tapered = tapered_trees(layer.forest, settings_);
+        if (settings_.wall_lines > 1) {
+            tapered = tapered_trees(layer.forest, settings_, wide_ends_above_);
+            wide_ends_above_ = ends_of_wide_trees(*tapered);
+        }
         const SupportForest& walls = tapered ? *tapered : layer.forest;
         append_wide_walls(walls, material.cavity->region, settings_, *material.shell);
         layer.held =
@@ -162,6 +165,7 @@ private:
     const std::size_t delay_;
     std::deque<Waiting> waiting_;
     std::shared_ptr<const PrintedLayer> printed_above_;
+    std::vector<Point> wide_ends_above_;
     std::deque<std::shared_ptr<const PrintedLayer>> printed_;    ///< of the layers over a gap, from the top
     std::deque<std::shared_ptr<const NearestSegment>> patches_;  ///< of this layer and of those a gap above it
 };

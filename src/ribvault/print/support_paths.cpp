@@ -298,7 +298,7 @@ void append_support_paths(const SupportForest& forest, const Settings& settings,
         if (out_degree(v, forest) == 0)
             plan.tracks.push_back({{{kind_of(forest[v]), settings.nozzle, false, {f.at(v)}}}, Entry::fixed, no_stop});
         else
-            TreePaths(f, v, plan).append(settings.gaps == Gaps::proved);
+            TreePaths(f, v, plan).append(settings.gaps != Gaps::paper);
     }
     for (Vertex v = 0; v < num_vertices(forest); ++v)
         if (!f.seen[v]) throw_not_a_forest(plan.layer, f.at(v), "has no root");

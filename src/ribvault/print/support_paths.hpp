@@ -14,8 +14,8 @@ namespace ribvault {
 /// from its other end, except when part of it is on its first layer: then it begins at the junction, where it sticks,
 /// because below its other end there is nothing. A dot (isolated vertex) becomes a path of one point.
 ///
-/// A root with several walls is a junction too: with Gaps::proved its two longest ways are one path, from tip to tip,
-/// unless both have parts on their first layer.
+/// A root with several walls is a junction too: but with Gaps::paper its two longest ways are one path, from tip to
+/// tip, unless both have parts on their first layer.
 ///
 /// Only the first path runs through a junction. A later branch starts one track width (`settings.nozzle`) short of it,
 /// measured along the branch, unless its first edge has first_layer or to_junction set: then it starts at the junction.

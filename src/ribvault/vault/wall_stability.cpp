@@ -8,7 +8,7 @@
 #include <queue>
 #include <vector>
 
-#include "ribvault/exact/predicates.hpp"
+#include "ribvault/exact/nearest_segment.hpp"
 #include "ribvault/vault/tree_walk.hpp"
 
 namespace ribvault {
@@ -124,11 +124,10 @@ std::vector<double> distances_to_roots(const SupportForest& forest) {
 class Taper {
 public:
     Taper(const SupportForest& forest, const Settings& settings)
-        : forest_(forest),
-          by_(0.5 * static_cast<double>((settings.wall_lines - 1) * settings.nozzle)),
-          way_(num_vertices(forest), std::numeric_limits<double>::infinity()),
-          towards_root_(num_vertices(forest)) {
+        : forest_(forest), back_(num_vertices(forest), 0), towards_root_(num_vertices(forest)) {
+        const double by = 0.5 * static_cast<double>((settings.wall_lines - 1) * settings.nozzle);
         std::vector<double> longest(num_vertices(forest), 0);
+        std::vector<char> done(num_vertices(forest), 0);
         std::vector<std::size_t> walls(num_vertices(forest)), tips;
         for (std::size_t v = 0; v < walls.size(); ++v) {
             walls[v] = out_degree(v, forest);
@@ -137,10 +136,11 @@ public:
         while (!tips.empty()) {
             const std::size_t v = tips.back();
             tips.pop_back();
-            way_[v] = longest[v];
+            done[v] = 1;
+            back_[v] = std::max(0.0, by - longest[v]);
             for (auto [next, end] = adjacent_vertices(v, forest); next != end; ++next) {
                 const std::size_t w = *next;
-                if (std::isfinite(way_[w])) continue;
+                if (done[w]) continue;
                 towards_root_[v] = w;
                 longest[w] = std::max(longest[w], longest[v] + length_to_root(v));
                 if (--walls[w] == 1 && !forest[w].root) tips.push_back(w);
@@ -151,21 +151,46 @@ public:
     /// What is left of the wall a-b; nothing, or the wall with the end away from the root drawn back.
     std::optional<Segment> left_of(std::size_t a, std::size_t b) const {
         const auto end = [&](std::size_t v, std::size_t other) {
-            const bool drawn_back = way_[v] < by_ && towards_root_[v] == other;
-            if (!drawn_back) return std::optional(forest_[v].at);
-            const double l = length_to_root(v), back = by_ - way_[v];
-            return back < l ? std::optional(part_way(forest_[v].at, forest_[other].at, back / l)) : std::nullopt;
+            if (back_[v] <= 0 || towards_root_[v] != other) return std::optional(forest_[v].at);
+            const double l = length_to_root(v);
+            return back_[v] < l ? std::optional(part_way(forest_[v].at, forest_[other].at, back_[v] / l))
+                                : std::nullopt;
         };
         const std::optional<Point> from = end(a, b), to = end(b, a);
         return from && to ? std::optional(Segment{*from, *to}) : std::nullopt;
+    }
+
+    /// Draws tips back by less where what is left is farther than `reach` from one of these points and the wall is not.
+    void hold(const std::vector<Point>& points, double reach) {
+        std::vector<Segment> left, whole;
+        std::vector<std::size_t> from;  // of `whole`: the vertex at its end away from the root
+        for (auto [e, end] = edges(forest_); e != end; ++e) {
+            std::size_t a = source(*e, forest_), b = target(*e, forest_);
+            if (!forest_[a].wide) continue;
+            if (const std::optional<Segment> s = left_of(a, b)) left.push_back(*s);
+            for (int turn = 0; turn < 2; ++turn, std::swap(a, b))
+                if (back_[a] > 0 && towards_root_[a] == b)
+                    whole.push_back({forest_[a].at, forest_[b].at}), from.push_back(a);
+        }
+        if (whole.empty()) return;
+        const NearestSegment walls(std::move(whole)), rest(std::move(left));
+        const auto within = [&](const NearestSegment& segments, Point p) {
+            return !segments.empty() && segments.nearest(p).distance.value() <= reach * reach;
+        };
+        for (const Point p : points) {
+            if (within(rest, p) || !within(walls, p)) continue;
+            const std::uint32_t nearest = walls.nearest(p).index;
+            std::size_t v = from[nearest];
+            back_[v] = std::min(back_[v], length(nearest_point(p, walls.segments()[nearest]) - forest_[v].at));
+            for (v = towards_root_[v]; back_[v] > 0; v = towards_root_[v]) back_[v] = 0;
+        }
     }
 
 private:
     double length_to_root(std::size_t v) const { return length(forest_[towards_root_[v]].at - forest_[v].at); }
 
     const SupportForest& forest_;
-    double by_;                ///< lattice units
-    std::vector<double> way_;  ///< the longest way to a tip, away from roots; infinite at and between roots
+    std::vector<double> back_;  ///< how far from the vertex towards the root nothing is left; lattice units
     std::vector<std::size_t> towards_root_;  ///< the vertex next to it on the way to the root, where there is one way
 };
 
@@ -205,8 +230,9 @@ void mark_wide_trees(SupportForest& forest, const Settings& settings) {
         if (forest[source(*e, forest)].wide) forest[*e].to_junction = true;
 }
 
-SupportForest tapered_trees(const SupportForest& forest, const Settings& settings) {
-    const Taper taper(forest, settings);
+SupportForest tapered_trees(const SupportForest& forest, const Settings& settings, const std::vector<Point>& above) {
+    Taper taper(forest, settings);
+    taper.hold(above, static_cast<double>(settings.support_radius));
     SupportForest result;
     std::vector<std::size_t> vertex(num_vertices(forest), 0);
     std::vector<char> there(num_vertices(forest), 0);
@@ -225,6 +251,14 @@ SupportForest tapered_trees(const SupportForest& forest, const Settings& setting
     for (std::size_t v = 0; v < there.size(); ++v)
         if (!there[v] && (out_degree(v, forest) == 0 || (forest[v].wide && forest[v].free))) add(v, forest[v].at);
     return result;
+}
+
+std::vector<Point> ends_of_wide_trees(const SupportForest& forest) {
+    std::vector<Point> ends;
+    for (auto [v, end] = vertices(forest); v != end; ++v)
+        if (forest[*v].wide && out_degree(*v, forest) < 2 && (!forest[*v].root || out_degree(*v, forest) == 0))
+            ends.push_back(forest[*v].at);
+    return ends;
 }
 
 int wide_trees(const SupportForest& forest) {

@@ -33,7 +33,13 @@ void mark_wide_trees(SupportForest& forest, const Settings& settings);
 /// The forest as it is printed: the tips of wide trees are drawn back, along the longest way to each place, by as much
 /// as the tracks around them add to its reach beyond one track, (wall_lines - 1) d / 2. So wide walls end where walls
 /// of one line do, and what holds up the tip of those holds up theirs. Roots, and walls between roots, stay.
-SupportForest tapered_trees(const SupportForest& forest, const Settings& settings);
+/// Tips are drawn back by less where otherwise nothing would be left within ρ of one of the points `above`, the ends of
+/// the wide trees above as they are printed: as walls shrink, merge and turn, the places that are drawn back to may
+/// move by more than the walls do.
+SupportForest tapered_trees(const SupportForest& forest, const Settings& settings,
+                            const std::vector<Point>& above = {});
+/// Of tapered trees.
+std::vector<Point> ends_of_wide_trees(const SupportForest& forest);
 
 /// How many trees are marked.
 int wide_trees(const SupportForest& forest);
