@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""How time and memory grow: with size, layers, triangles and threads. G-code and both proofs included, whole processes.
+"""How time and memory grow: with size, layers, triangles, flat roofs, islands, hills and threads. G-code and both proofs included, whole processes.
 
 Usage: experiments/scaling.py [--rounds 3] [--only SERIES] [--models FOLDER] [--json FILE]; scripts/benchmark scaling builds first.
 Exponents e of size^e are least squares over all rows of a series. Exit code 1 when a print is not proved.
@@ -77,6 +77,18 @@ class Builder:
         return Series("Layers of one section: a column, 20 x 20 mm", "layers",
                       [Case(n, self._made(f"column{n}", lambda n=n: meshes.column(n * 0.2)), ("--scale", 1, *LARGE_BED)) for n in layers])
 
+    def plates(self):
+        return Series("Flat boxes, 12 mm high, thrifty", "side mm",
+                      [Case(a, self._made(f"plate{a}", lambda a=a: meshes.column(12.0, a)), ("--scale", 1, "--strategy", "thrifty")) for a in (25, 50, 100, 200)])
+
+    def pins(self):
+        return Series("Islands: pyramids of 4 mm side by side", "pins",
+                      [Case(n, self._made(f"pins{n}", lambda n=n: meshes.pins(n)), ("--scale", 1)) for n in (25, 100, 400, 1600)])
+
+    def reliefs(self):
+        return Series("Reliefs: square plates with hills every 8 mm", "side mm",
+                      [Case(a, self._made(f"relief{a}", lambda a=a: meshes.relief(a)), ("--scale", 1)) for a in (25, 50, 100, 200)])
+
     def threads(self):
         file = self._cgal("bunny00")
         return Series("Threads: CGAL's bunny00, 55 mm", "threads", [Case(n, file, ("--height", 55, "--up", "y", "--threads", n)) for n in (1, 2)], False)
@@ -92,7 +104,7 @@ class Builder:
         return Series("Large: bunny00 cut into 1.5 million triangles, 88 mm; the low poly bunny, 270 mm", "height mm", cases, False)
 
 
-SERIES = ("size", "layers", "triangles", "section", "threads", "large")
+SERIES = ("size", "layers", "triangles", "section", "plates", "pins", "reliefs", "threads", "large")
 
 
 def arguments():

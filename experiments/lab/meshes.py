@@ -1,4 +1,4 @@
-"""Meshes of any size for the scaling experiment: finer copies of an OFF file, balls and columns. Written as binary STL."""
+"""Meshes of any size for the scaling experiment: finer copies of an OFF file, balls, columns, pins and reliefs. Written as binary STL."""
 import array
 import math
 import struct
@@ -73,6 +73,39 @@ def column(height, side=20.0):
     """An upright square column."""
     points = [(x, y, z) for z in (0.0, height) for x, y in ((0.0, 0.0), (side, 0.0), (side, side), (0.0, side))]
     return points, [(0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7), *(t for k in range(4) for j in ((k + 1) % 4,) for t in ((k, j, j + 4), (k, j + 4, k + 4)))]
+
+
+def pins(count, apart=5.0, width=4.0, height=8.0):
+    """So many pyramids side by side, in rows as long as there are rows."""
+    row, points, triangles = math.ceil(math.sqrt(count)), [], []
+    for k in range(count):
+        x, y, n = apart * (k % row), apart * (k // row), len(points)
+        points += [(x, y, 0.0), (x + width, y, 0.0), (x + width, y + width, 0.0), (x, y + width, 0.0), (x + width / 2, y + width / 2, height)]
+        triangles += [(n, n + 2, n + 1), (n, n + 3, n + 2), *((n + a, n + (a + 1) % 4, n + 4) for a in range(4))]
+    return points, triangles
+
+
+def relief(side, wave=8.0, low=6.0, deep=4.0, step=1.0):
+    """A square plate whose top is hills and hollows, `wave` mm from hill to hill."""
+    n = round(side / step)
+
+    def top(i, j):
+        return low + deep / 2 * (1 + math.sin(2 * math.pi * i * step / wave) * math.sin(2 * math.pi * j * step / wave))
+
+    points = [(i * step, j * step, z) for j in range(n + 1) for i in range(n + 1) for z in (0.0, top(i, j))]
+
+    def at(i, j, upper):
+        return 2 * (j * (n + 1) + i) + upper
+
+    triangles = []
+    for j in range(n):
+        for i in range(n):
+            for upper, a, c in ((1, (i + 1, j), (i, j + 1)), (0, (i, j + 1), (i + 1, j))):
+                triangles += [(at(i, j, upper), at(*a, upper), at(i + 1, j + 1, upper)), (at(i, j, upper), at(i + 1, j + 1, upper), at(*c, upper))]
+    for k in range(n):
+        for a, b in (((k, 0), (k + 1, 0)), ((n, k), (n, k + 1)), ((k + 1, n), (k, n)), ((0, k + 1), (0, k))):
+            triangles += [(at(*a, 0), at(*b, 0), at(*b, 1)), (at(*a, 0), at(*b, 1), at(*a, 1))]
+    return points, triangles
 
 
 def write_stl(path, mesh):
