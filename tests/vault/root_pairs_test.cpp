@@ -15,7 +15,9 @@ constexpr std::size_t none = no_root;
 
 CavityBoundary square() { return prepare_boundary({rectangle(0, 0, 20 * mm, 20 * mm)}); }
 
-TreeRoot on_floor(double x, double trunk, std::size_t tree) { return {{round_to_lattice(x * mm), 0}, trunk * mm, tree}; }
+TreeRoot on_floor(double x, double trunk, std::size_t tree, Vec away = {0, 1}) {
+    return {{round_to_lattice(x * mm), 0}, trunk * mm, tree, away};
+}
 
 using Pairs = std::vector<std::size_t>;
 
@@ -39,13 +41,24 @@ TEST_CASE("roots farther apart than the limit, or than twice the shorter trunk, 
 
 TEST_CASE("the way from root to root is along the shell") {
     // Around a corner, and over the place where the contour begins.
-    const std::vector<TreeRoot> corner{on_floor(0.5, 3, 0), {{0, 50000}, 3 * mm, 1}};
+    const std::vector<TreeRoot> corner{on_floor(0.5, 3, 0), {{0, 50000}, 3 * mm, 1, {1, 1}}};
     CHECK(pair_roots(corner, square(), mm) == Pairs{1, 0});
     // On both sides of a partition 0.8 mm wide.
     const CavityBoundary rooms = prepare_boundary(
         {rectangle(0, 0, 10 * mm, 20 * mm), rectangle(10 * mm + 80000, 0, 20 * mm, 20 * mm)});
-    const std::vector<TreeRoot> apart{{{10 * mm, 10 * mm}, 3 * mm, 0}, {{10 * mm + 80000, 10 * mm}, 3 * mm, 1}};
+    const std::vector<TreeRoot> apart{{{10 * mm, 10 * mm}, 3 * mm, 0, {1, 9}},
+                                      {{10 * mm + 80000, 10 * mm}, 3 * mm, 1, {1, 9}}};
     CHECK(pair_roots(apart, rooms, 2 * mm) == Pairs{none, none});
+}
+
+TEST_CASE("trunks that lead apart stay apart, unless they have the same root already") {
+    const auto pair = [](Vec one, Vec other, double gap) {
+        return pair_roots({on_floor(5, 3, 0, one), on_floor(5 + gap, 3, 1, other)}, square(), 2 * mm)[0] == 1;
+    };
+    CHECK(pair({-1, 4}, {1, 4}, 1));
+    CHECK(pair({-10, 18}, {10, 18}, 1));        // 58°
+    CHECK_FALSE(pair({-10, 17}, {10, 17}, 1));  // 61°
+    CHECK(pair({-1, 0}, {1, 0}, 0));
 }
 
 TEST_CASE("pairs never close a ring of trees") {

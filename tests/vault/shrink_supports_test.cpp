@@ -98,6 +98,23 @@ TEST_CASE("neighbouring walls become one tree by their roots, and are zipped up"
     CHECK(before - length(comb) > 2 * 2 * 8 * 20000);
 }
 
+TEST_CASE("walls whose roots are in the same place are zipped up from it") {
+    const SupportForest fork =
+        forest_of({{{0, 1000000}, {400000, 1005000}, {0, 1000000}, {400000, 995000}}, {0, 2}, {{0, 1}, {2, 3}}});
+    const ShrunkSupports zipped = shrink_supports(fork, square(), 20000);
+    CHECK(component_count(zipped.forest) == 1);
+    CHECK(num_edges(zipped.forest) == 3);
+    CHECK(length(zipped.forest) < 0.6 * length(fork));
+}
+
+TEST_CASE("what is left of a zipped corner is zipped on the next layers, while it is narrow") {
+    SupportForest fork = forest_of({{{0, 1000000}, {900000, 1040000}, {900000, 960000}}, {0}, {{0, 1}, {0, 2}}});
+    const CavityBoundary shell = square();
+    for (int layer = 0; layer < 3; ++layer) fork = shrink_supports(fork, shell, 20000).forest;
+    // A stem, and of each wall little more than leads aside.
+    CHECK(length(fork) < 1000000);
+}
+
 TEST_CASE("walls of another tree, and of trees in another cavity, stay where they are") {
     const CavityBoundary rooms =
         prepare_boundary({rectangle(0, 0, 1000000, 2000000), rectangle(1080000, 0, 2080000, 2000000)});

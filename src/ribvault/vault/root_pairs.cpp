@@ -19,6 +19,10 @@ struct Neighbours {
     std::size_t a, b;  ///< roots
 };
 
+bool lead_the_same_way(const TreeRoot& a, const TreeRoot& b) {
+    return a.at == b.at || 2 * dot(a.away, b.away) >= norm(a.away) * norm(b.away);
+}
+
 /// Which trees have become one.
 class JoinedTrees {
 public:
@@ -78,7 +82,8 @@ std::vector<std::size_t> pair_roots(const std::vector<TreeRoot>& roots, const Ca
             const Place &a = places[k], &b = places[last ? first : k + 1];
             const TreeRoot &one = roots[a.root], &other = roots[b.root];
             const double gap = b.along - a.along + (last ? around[a.contour] : 0);
-            if (gap <= static_cast<double>(farthest) && gap <= 2 * std::min(one.trunk, other.trunk))
+            if (lead_the_same_way(one, other) && gap <= static_cast<double>(farthest) &&
+                gap <= 2 * std::min(one.trunk, other.trunk))
                 pairs.push_back({gap, a.root, b.root});
         }
         first = end;

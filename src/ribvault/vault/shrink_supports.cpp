@@ -15,6 +15,8 @@ namespace ribvault {
 namespace {
 
 constexpr int sweeps = 10;
+constexpr double zip_share = 0.9;  ///< of the shorter wall at a corner that is zipped up, at most
+constexpr double wide_corner = 2 * M_PI / 3, narrow_corner = M_PI / 9;  ///< 120° and 20°
 constexpr Unit steps_apart = 10;  ///< roots farther apart than so many steps do not go towards each other
 
 class Shrinker {
@@ -35,8 +37,8 @@ public:
 
     ShrunkSupports run() {
         cut_between_roots();
+        unite_roots();
         zip_corners();
-        pair_roots();
         for (int k = 0; k < sweeps; ++k) {
             bool moved = false;
             for (std::size_t v = 0; v < nodes_.size(); ++v)
@@ -59,6 +61,7 @@ private:
     };
     struct Wall {
         std::size_t a, b;
+        Segment was;  ///< before anything moved
         bool alive = true;
     };
 
@@ -67,7 +70,7 @@ private:
 
     void add_wall(std::size_t a, std::size_t b) {
         const auto id = static_cast<std::uint32_t>(walls_.size());
-        walls_.push_back({a, b});
+        walls_.push_back({a, b, {nodes_[a].at, nodes_[b].at}});
         nodes_[a].walls.push_back(id);
         nodes_[b].walls.push_back(id);
         grid_.insert(id, segment(walls_.back()));
@@ -216,22 +219,39 @@ private:
         nodes_[v].walls.clear();
     }
 
-    /// Roots that are to become one (root_pairs.hpp).
-    void pair_roots() {
+    /// Roots of neighbouring trees that can be at the same place become one, others go towards each other from now on.
+    void unite_roots() {
         partner_.assign(nodes_.size(), none);
-        if (!boundary_.has_shell()) return;
+        if (!boundary_.has_shell() || braced_ > 0) return;
+        for (bool united = true; united;) {
+            pair_roots();
+            united = false;
+            for (std::size_t v = 0; v < nodes_.size(); ++v) united = (partner_[v] != none && meet(v)) || united;
+        }
+    }
+    void pair_roots() {
         std::vector<TreeRoot> roots;
         std::vector<std::size_t> node;
         const std::vector<std::size_t> tree = trees();
         for (std::size_t v = 0; v < nodes_.size(); ++v) {
             const Node& n = nodes_[v];
-            if (!n.root || n.gone || n.free || n.stays || n.walls.size() != 1) continue;
-            roots.push_back({n.at, trunk_of(v), tree[v]});
+            partner_[v] = none;
+            if (!n.root || n.gone || n.free || n.stays || n.walls.empty()) continue;
+            roots.push_back({n.at, trunk_of(v), tree[v], away_from(v)});
             node.push_back(v);
         }
         const std::vector<std::size_t> partner = ribvault::pair_roots(roots, boundary_, steps_apart * step_);
         for (std::size_t r = 0; r < roots.size(); ++r)
             if (partner[r] != no_root) partner_[node[r]] = node[partner[r]];
+    }
+    /// Where the walls of a vertex lead, as the sum of unit vectors.
+    Vec away_from(std::size_t v) const {
+        Vec sum;
+        for (const std::uint32_t w : nodes_[v].walls) {
+            const Vec d = vec(nodes_[other(w, v)].at) - vec(nodes_[v].at);
+            sum = sum + (1 / std::max(norm(d), 1.0)) * d;
+        }
+        return sum;
     }
     /// For every vertex one of its tree, the same for all of it.
     std::vector<std::size_t> trees() const {
@@ -246,9 +266,13 @@ private:
         for (std::size_t v = 0; v < up.size(); ++v) up[v] = top(v);
         return up;
     }
-    /// From a vertex with one wall to the first junction or the tip.
-    double trunk_of(std::size_t v) const {
-        std::uint32_t w = nodes_[v].walls.front();
+    /// The longest way from a root to the first junction or the tip.
+    double trunk_of(std::size_t root) const {
+        double longest = 0;
+        for (const std::uint32_t w : nodes_[root].walls) longest = std::max(longest, trunk_of(root, w));
+        return longest;
+    }
+    double trunk_of(std::size_t v, std::uint32_t w) const {
         double sum = 0;
         for (;;) {
             const std::size_t u = other(w, v);
@@ -265,24 +289,27 @@ private:
         return place_root(nearest_point(p, edge), boundary_);
     }
 
-    /// A root goes towards its partner; where both can be at the same place they become one.
+    /// v's root and its partner become one in the middle between them, if they may.
+    bool meet(std::size_t v) {
+        const std::size_t u = partner_[v];
+        const Point middle = on_shell(0.5 * (vec(nodes_[v].at) + vec(nodes_[u].at))), was = nodes_[u].at;
+        if (!reachable(nodes_[v], middle) || !reachable(nodes_[u], middle) || collides(u, middle, none)) return false;
+        nodes_[u].at = middle;
+        if (collides(v, middle, none) || runs_over(v, u)) {
+            nodes_[u].at = was;
+            return false;
+        }
+        merge(v, u, {});
+        partner_[v] = partner_[u] = none;
+        return true;
+    }
+    /// A root goes towards its partner.
     bool approach(std::size_t v) {
+        if (meet(v)) return true;
         const std::size_t u = partner_[v];
         const Vec here = vec(nodes_[v].at), there = vec(nodes_[u].at);
         const double gap = norm(there - here);
-        const Point middle = on_shell(0.5 * (here + there));
-        if (reachable(nodes_[v], middle) && reachable(nodes_[u], middle)) {
-            const Point was = nodes_[u].at;
-            if (collides(u, middle, none)) return false;
-            nodes_[u].at = middle;
-            if (collides(v, middle, none) || runs_over(v, u)) {
-                nodes_[u].at = was;
-                return false;
-            }
-            merge(v, u, {});
-            partner_[v] = partner_[u] = none;
-            return true;
-        }
+        if (gap <= 0) return false;
         double reach = std::min(gap / 2, static_cast<double>(step_) - 4);
         for (int attempt = 0; attempt < 3; ++attempt, reach /= 2) {
             const Point p = on_shell(here + (reach / gap) * (there - here));
@@ -298,8 +325,8 @@ private:
     /// A root goes along the shell towards the point that makes its walls shortest.
     bool slide(std::size_t v) {
         const Node& node = nodes_[v];
-        if (node.walls.size() != 1) return false;
         if (partner_[v] != none) return approach(v);
+        if (node.walls.size() != 1) return false;
         const Point neighbour = nodes_[other(node.walls[0], v)].at;
         const Segment& nearest = boundary_.edges.segments()[boundary_.edges.nearest(neighbour).index];
         const Vec here = vec(node.at), wish = vec(nearest_point(neighbour, nearest));
@@ -368,20 +395,26 @@ private:
         }
     }
 
+    /// What is at a share of the way from v to the other end of a wall, before anything moved.
+    Point place_before(std::uint32_t w, std::size_t v, double share) const {
+        const Segment& was = walls_[w].was;
+        return walls_[w].a == v ? part_way(was.a, was.b, share) : part_way(was.b, was.a, share);
+    }
+
     /// The narrowest corner of a junction with four walls or more, or of a root with two or more, below 120°: its two
     /// walls get a common beginning that grows from layer to layer.
     void zip_corners() {
         const std::size_t n = nodes_.size();
         std::vector<char> zipped(walls_.size(), 0);  // once: its other points have moved by then
         for (std::size_t v = 0; v < n; ++v) {
-            if (nodes_[v].gone || nodes_[v].stays || nodes_[v].walls.size() < (nodes_[v].root ? 2u : 4u)) continue;
+            if (nodes_[v].gone || nodes_[v].stays || nodes_[v].walls.size() < (nodes_[v].root ? 2u : 3u)) continue;
             std::vector<std::pair<double, std::uint32_t>> around;
             for (const std::uint32_t w : nodes_[v].walls) {
                 const Vec d = vec(nodes_[other(w, v)].at) - vec(nodes_[v].at);
                 around.push_back({std::atan2(d.y, d.x), w});
             }
             std::sort(around.begin(), around.end());
-            double narrowest = 2 * M_PI / 3;
+            double narrowest = nodes_[v].root || nodes_[v].walls.size() > 3 ? wide_corner : narrow_corner;
             std::size_t best = around.size();
             for (std::size_t k = 0; k < around.size(); ++k) {
                 const bool last = k + 1 == around.size();
@@ -395,14 +428,29 @@ private:
             const Vec here = vec(nodes_[v].at), da = vec(nodes_[a].at) - here, db = vec(nodes_[b].at) - here;
             const double la = norm(da), lb = norm(db);
             if (std::min(la, lb) < 8) continue;
-            // What lies as far from v on both walls meets in the middle.
-            const Vec ua = (1 / la) * da, ub = (1 / lb) * db;
-            const double sine = norm(ua - ub) / 2, farthest = 0.5 * std::min(la, lb);
-            const double reach =
-                sine * farthest > static_cast<double>(step_) - 2 ? (static_cast<double>(step_) - 2) / sine : farthest;
+            // What lies as far from v on both walls meets in the middle: as far out as neither moves by more than a
+            // step.
+            const auto meeting = [&](double reach) {
+                return rounded(here + (reach / 2) * ((1 / la) * da + (1 / lb) * db));
+            };
+            const auto moved = [&](double reach) {
+                const Vec p = vec(meeting(reach));
+                return std::max(norm(p - vec(place_before(w1, v, reach / la))),
+                                norm(p - vec(place_before(w2, v, reach / lb))));
+            };
+            const double most = static_cast<double>(step_) - 2;
+            double reach = zip_share * std::min(la, lb);
+            if (moved(reach) > most) {
+                double low = 0;
+                for (double high = reach; high - low > 1;) {
+                    const double middle = (low + high) / 2;
+                    (moved(middle) > most ? high : low) = middle;
+                }
+                reach = low;
+            }
             if (reach < 4) continue;
-            const Point from_a = rounded(here + reach * ua), from_b = rounded(here + reach * ub),
-                        p = rounded(here + (reach / 2) * (ua + ub));
+            const Point from_a = place_before(w1, v, reach / la), from_b = place_before(w2, v, reach / lb),
+                        p = meeting(reach);
             if (p == nodes_[v].at || p == nodes_[a].at || p == nodes_[b].at) continue;
             const double saved =
                 la + lb - norm(vec(nodes_[a].at) - vec(p)) - norm(vec(nodes_[b].at) - vec(p)) - norm(vec(p) - here);
