@@ -25,7 +25,7 @@ public:
         : boundary_(boundary),
           step_(step),
           braced_(static_cast<double>(braced)),
-          grid_(bounding_box(forest), units_per_mm, step + 2) {
+          grid_(bounding_box(forest), units_per_mm, 2 * step + 2) {  // what begins between walls may move twice as far
         for (auto [v, end] = vertices(forest); v != end; ++v)
             nodes_.push_back({forest[*v].at, forest[*v].root, {forest[*v].at}, {}, forest[*v]});
         for (auto [e, end] = edges(forest); e != end; ++e) add_wall(source(*e, forest), target(*e, forest));
