@@ -329,6 +329,32 @@ TEST_CASE("by default one path runs through a root of several walls, from the ti
     CHECK(paths(both_new) == Paths{{{0, 0}, {0, 5 * mm}}, {{0, 0}, {3 * mm, 0}}});
 }
 
+TEST_CASE("a path through a root takes a short third wall along, and does not bend past the root of a longer one") {
+    const auto tracks = [](Unit third, bool may_bend, const std::vector<EdgeOf>& more = {}) {
+        std::vector<Point> vertices{{0, 0}, {20000, 0}, {5 * mm, 0}, {-5 * mm, 0}, {0, third}};
+        std::vector<EdgeOf> edges{{0, 1}, {1, 2}, {0, 3}, {0, 4, true}};
+        for (const EdgeOf& e : more) vertices.push_back({20000, 30000}), edges.push_back(e);
+        SupportForest forest = forest_of(vertices, edges);
+        for (auto [e, end] = boost::edges(forest); e != end; ++e) forest[*e].may_bend = may_bend;
+        std::vector<std::vector<Point>> all;
+        for (const PlannedTrack& track : plan_of(forest, Gaps::proved).tracks) all.push_back(track.paths.at(0).points);
+        return all;
+    };
+    const auto passes = [](const std::vector<Point>& path, Point p) {
+        return std::find(path.begin(), path.end(), p) != path.end();
+    };
+    CHECK(tracks(-30000, false).size() == 2);
+    CHECK(passes(tracks(-30000, false).front(), {0, 0}));
+    REQUIRE(tracks(-30000, true).size() == 1);
+    CHECK(passes(tracks(-30000, true).front(), {0, -30000}));
+    // Beside it, 0.2 mm away, a branch that is taken along.
+    const auto beside = tracks(-3 * mm, true, {{1, 5, true}});
+    REQUIRE(beside.size() == 2);
+    CHECK(passes(beside.front(), {20000, 30000}));
+    CHECK(passes(beside.front(), {0, 0}));
+    CHECK(beside.back().front() == Point{0, 0});
+}
+
 TEST_CASE("paths through roots print the same walls with fewer tracks") {
     std::mt19937_64 random(88);
     int saved = 0;

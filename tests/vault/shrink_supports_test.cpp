@@ -115,15 +115,38 @@ TEST_CASE("what is left of a zipped corner is zipped on the next layers, while i
     CHECK(length(fork) < 1000000);
 }
 
-TEST_CASE("walls of another tree, and of trees in another cavity, stay where they are") {
+TEST_CASE("trees in another cavity stay apart, however near their roots are and wherever they lead") {
     const CavityBoundary rooms =
-        prepare_boundary({rectangle(0, 0, 1000000, 2000000), rectangle(1080000, 0, 2080000, 2000000)});
+        prepare_boundary({rectangle(0, 0, 1000000, 2000000), rectangle(1060000, 0, 2080000, 2000000)});
+    // Both lead along the partition, almost.
     const SupportForest sides = forest_of(
-        {{{1000000, 1000000}, {500000, 1000000}, {1080000, 1000000}, {1580000, 1000000}}, {0, 2}, {{0, 1}, {2, 3}}});
-    const ShrunkSupports shrunk = shrink_supports(sides, rooms, 20000);
+        {{{1000000, 1000000}, {990000, 1500000}, {1060000, 1000000}, {1070000, 1500000}}, {0, 2}, {{0, 1}, {2, 3}}});
+    ShrunkSupports shrunk = shrink_supports(sides, rooms, 20000);
     CHECK(component_count(shrunk.forest) == 2);
-    CHECK(has_vertex(shrunk.forest, {1000000, 1000000}));
-    CHECK(has_vertex(shrunk.forest, {1080000, 1000000}));
+    // In one room they go towards each other.
+    const CavityBoundary room = prepare_boundary({rectangle(0, 0, 2080000, 2000000)});
+    SupportForest floor =
+        forest_of({{{1000000, 0}, {990000, 500000}, {1039000, 0}, {1049000, 500000}}, {0, 2}, {{0, 1}, {2, 3}}});
+    CHECK(component_count(shrink_supports(floor, room, 20000).forest) == 1);
+    // Not when they may be braced.
+    CHECK(component_count(shrink_supports(floor, room, 20000, 0, 300000).forest) == 2);
+}
+
+TEST_CASE("what a zipped corner leaves of a wall and its stem survive with it, and carry what stood there") {
+    SupportForest fork = forest_of({{{0, 1000000}, {25000, 1001000}, {400000, 999000}}, {0}, {{0, 1}, {0, 2}}});
+    fork[0].standing = 60, fork[1].standing = fork[2].standing = 4;
+    const ShrunkSupports zipped = shrink_supports(fork, square(), 20000);
+    CHECK(zipped.survives == std::vector<char>{1, 1});  // the first is all stem now
+    fork = forest_of({{{0, 1000000}, {400000, 1002000}, {400000, 998000}}, {0}, {{0, 1}, {0, 2}}});
+    fork[0].standing = 60, fork[1].standing = fork[2].standing = 4;
+    const SupportForest shrunk = shrink_supports(fork, square(), 20000).forest;
+    int joints = 0;
+    for (auto [v, end] = vertices(shrunk); v != end; ++v)
+        if (shrunk[*v].at.x > 300000) {
+            ++joints;
+            CHECK(shrunk[*v].standing < 20);
+        }
+    CHECK(joints > 0);
 }
 
 TEST_CASE("fans of narrow corners at both ends of their walls keep within the step") {

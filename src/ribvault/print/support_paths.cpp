@@ -216,9 +216,7 @@ public:
     void append(bool through_root) {
         std::vector<Vertex> children;
         children_by_rank(f_, root_, children);
-        if (through_root && children.size() > 1 && run_through(children[0], children[1]))
-            children.erase(children.begin(), children.begin() + 2);
-        leave(root_, children);
+        if (!through_root || children.size() < 2 || !run_through(children)) leave(root_, children);
         while (!left_.empty()) {
             const Branch branch = left_.back();
             left_.pop_back();
@@ -236,11 +234,13 @@ private:
     }
 
     /// The root's two longest ways as one path, if it can begin at a tip.
-    bool run_through(Vertex first, Vertex second) {
-        const Way ways[] = {longest_way(f_, root_, first), longest_way(f_, root_, second)};
+    bool run_through(const std::vector<Vertex>& children) {
+        const Way ways[] = {longest_way(f_, root_, children[0]), longest_way(f_, root_, children[1])};
         const bool begins[] = {lies_on_walls(f_, ways[0]), lies_on_walls(f_, ways[1])};
         if (!begins[0] && !begins[1]) return false;
-        Way whole = begins[1] ? through(ways[1], ways[0]) : through(ways[0], ways[1]);
+        const Way &from = ways[begins[1]], &to = ways[!begins[1]];
+        Way whole = through(from, to);
+        whole.aside[from.vertices.size() - 1].assign(children.begin() + 2, children.end());
         const std::vector<Point> points = points_along(whole, 0);
         for (const Way& way : ways) set_gaps_along(f_, way.vertices, 0, true);
         for (const Vertex v : whole.vertices) f_.printed_by[v] = plan_.tracks.size();

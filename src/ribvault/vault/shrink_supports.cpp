@@ -28,7 +28,8 @@ public:
           grid_(bounding_box(forest), units_per_mm, 2 * step + 2) {  // what begins between walls may move twice as far
         for (auto [v, end] = vertices(forest); v != end; ++v)
             nodes_.push_back({forest[*v].at, forest[*v].root, {forest[*v].at}, {}, forest[*v]});
-        for (auto [e, end] = edges(forest); e != end; ++e) add_wall(source(*e, forest), target(*e, forest));
+        for (auto [e, end] = edges(forest); e != end; ++e)
+            add_wall(source(*e, forest), target(*e, forest), walls_.size());
         input_walls_ = walls_.size();
         SpareLengths lengths = spare_lengths(forest, pillar_length);
         for (std::size_t v = 0; v < nodes_.size(); ++v)
@@ -61,16 +62,17 @@ private:
     };
     struct Wall {
         std::size_t a, b;
-        Segment was;  ///< before anything moved
+        Segment was;         ///< before anything moved
+        std::size_t origin;  ///< the wall of the input that it is or a part of which it was; of a stem none
         bool alive = true;
     };
 
     Segment segment(const Wall& w) const { return {nodes_[w.a].at, nodes_[w.b].at}; }
     std::size_t other(std::uint32_t w, std::size_t v) const { return walls_[w].a == v ? walls_[w].b : walls_[w].a; }
 
-    void add_wall(std::size_t a, std::size_t b) {
+    void add_wall(std::size_t a, std::size_t b, std::size_t origin) {
         const auto id = static_cast<std::uint32_t>(walls_.size());
-        walls_.push_back({a, b, {nodes_[a].at, nodes_[b].at}});
+        walls_.push_back({a, b, {nodes_[a].at, nodes_[b].at}, origin});
         nodes_[a].walls.push_back(id);
         nodes_[b].walls.push_back(id);
         grid_.insert(id, segment(walls_.back()));
@@ -388,10 +390,9 @@ private:
             nodes_.push_back({p, false, {p}, {}, cut});
             nodes_.push_back({p, false, {p}, {}, cut});
             std::erase(nodes_[b].walls, static_cast<std::uint32_t>(w));
-            walls_[w].a = a, walls_[w].b = tip_a;
+            walls_[w].a = a, walls_[w].b = tip_a, walls_[w].was = {nodes_[a].at, p};
             nodes_[tip_a].walls.push_back(static_cast<std::uint32_t>(w));
-            add_wall(tip_a + 1, b);
-            cut_.push_back({w, walls_.size() - 1});
+            add_wall(tip_a + 1, b, w);
         }
     }
 
@@ -401,8 +402,9 @@ private:
         return walls_[w].a == v ? part_way(was.a, was.b, share) : part_way(was.b, was.a, share);
     }
 
-    /// The narrowest corner of a junction with four walls or more, or of a root with two or more, below 120°: its two
-    /// walls get a common beginning that grows from layer to layer.
+    /// The narrowest corner of a junction with four walls or more, or of a root with two or more, below 120°, and of a
+    /// junction with three walls below 20°: its two walls get a common beginning, as long as what lies on both can meet
+    /// in one step, which grows from layer to layer.
     void zip_corners() {
         const std::size_t n = nodes_.size();
         std::vector<char> zipped(walls_.size(), 0);  // once: its other points have moved by then
@@ -464,13 +466,17 @@ private:
             }
             if (!free) continue;
             const std::size_t joint = nodes_.size();
-            nodes_.push_back({p, false, {from_a, from_b}, {w1, w2}, vertex_between(nodes_[v].was, nodes_[v].was, p)});
+            SupportVertex middle = vertex_between(nodes_[v].was, nodes_[a].was, from_a);
+            const SupportVertex beside = vertex_between(nodes_[v].was, nodes_[b].was, from_b);
+            middle.standing = std::max(middle.standing, beside.standing), middle.wide = middle.wide || beside.wide;
+            nodes_.push_back({p, false, {from_a, from_b}, {w1, w2}, middle});
             for (const std::uint32_t w : {w1, w2}) {
                 zipped[w] = 1;
+                if (walls_[w].origin != none) stems_.push_back({walls_[w].origin, walls_.size()});
                 (walls_[w].a == v ? walls_[w].a : walls_[w].b) = joint;
                 std::erase(nodes_[v].walls, w);
             }
-            add_wall(v, joint);
+            add_wall(v, joint, none);
         }
     }
 
@@ -495,8 +501,10 @@ private:
         for (std::size_t v = 0; v < nodes_.size(); ++v)
             if (!nodes_[v].gone && nodes_[v].root && nodes_[v].walls.empty()) keep(v);
         result.survives.resize(input_walls_);
-        for (std::size_t w = 0; w < input_walls_; ++w) result.survives[w] = walls_[w].alive;
-        for (const auto& [w, half] : cut_) result.survives[w] = walls_[w].alive || walls_[half].alive;
+        for (const Wall& w : walls_)
+            if (w.alive && w.origin != none) result.survives[w.origin] = 1;
+        for (const auto& [w, stem] : stems_)
+            if (walls_[stem].alive) result.survives[w] = 1;
         return result;
     }
 
@@ -506,7 +514,8 @@ private:
     double braced_;  ///< 0: trees are not
     std::vector<Node> nodes_;
     std::vector<Wall> walls_;
-    std::vector<std::pair<std::size_t, std::size_t>> cut_;
+    std::vector<std::pair<std::size_t, std::size_t>> stems_;  ///< walls of the input and what leads to what is left of
+                                                              ///< them beyond a zipped corner
     std::vector<std::size_t> partner_;  ///< of a root, the one it goes towards; none
     std::size_t input_walls_ = 0;
     SegmentGrid grid_;

@@ -22,9 +22,11 @@ struct ShrunkSupports {
 ///
 /// Every point of a wall stays within `step` of what has become of the wall (a segment whose ends moved by at most
 /// `step`, decided exactly, or a point within `step` of both its ends), so equation (1) holds as for the paper's two
-/// operators. No two walls cross that did not before.
+/// operators; where a wall is zipped or cut in between, the place on it is rounded to the lattice (0.7 units, 7 nm). No
+/// two walls cross that did not before.
 ///
-/// `braced` > 0 (vault/brace_trees.hpp): a tree is cut between its roots only where no part would be longer.
+/// `braced` > 0 (vault/brace_trees.hpp): a tree is cut between its roots only where no part would be longer, and trees
+/// do not become one.
 ///
 /// Roots of trees that stand free stay where they are, and of such a tree that has no more than `pillar_length`
 /// everything does.
