@@ -17,8 +17,9 @@ struct ShrunkSupports {
 
 /// Shortens the supports as far as points that move by at most `step` can: tips run back, junctions move too, roots
 /// slide along the shell, neighbouring trees by their roots towards each other until they are one
-/// (vault/root_pairs.hpp), vertices that meet merge, the narrowest corner of a crowded junction or root is zipped up as
-/// far as both its walls can come together, and a tree with several roots is cut apart between them.
+/// (vault/root_pairs.hpp), vertices that meet merge, the narrowest corner of a crowded junction or root, and any below
+/// 20°, is zipped up as far as both its walls can come together, and a tree with several roots is cut apart between
+/// them.
 ///
 /// Every point of a wall stays within `step` of what has become of the wall (a segment whose ends moved by at most
 /// `step`, decided exactly, or a point within `step` of both its ends), so equation (1) holds as for the paper's two
