@@ -165,7 +165,7 @@ private:
     const std::size_t delay_;
     std::deque<Waiting> waiting_;
     std::shared_ptr<const PrintedLayer> printed_above_;
-    std::vector<Point> wide_ends_above_;
+    std::vector<Point> wide_ends_above_;                         ///< of wide trees, as they are printed
     std::deque<std::shared_ptr<const PrintedLayer>> printed_;    ///< of the layers over a gap, from the top
     std::deque<std::shared_ptr<const NearestSegment>> patches_;  ///< of this layer and of those a gap above it
 };

@@ -1,8 +1,8 @@
 #include "ribvault/vault/root_pairs.hpp"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <tuple>
-#include <unordered_map>
 
 namespace ribvault {
 namespace {
@@ -22,27 +22,6 @@ struct Neighbours {
 bool lead_the_same_way(const TreeRoot& a, const TreeRoot& b) {
     return a.at == b.at || 2 * dot(a.away, b.away) >= norm(a.away) * norm(b.away);
 }
-
-/// Which trees have become one.
-class JoinedTrees {
-public:
-    explicit JoinedTrees(const std::vector<TreeRoot>& roots) {
-        for (const TreeRoot& root : roots) up_.emplace(root.tree, root.tree);
-    }
-    /// False when they are one already.
-    bool join(std::size_t a, std::size_t b) {
-        a = top(a), b = top(b);
-        up_[a] = b;
-        return a != b;
-    }
-
-private:
-    std::size_t top(std::size_t tree) {
-        while (up_[tree] != tree) tree = up_[tree] = up_[up_[tree]];
-        return tree;
-    }
-    std::unordered_map<std::size_t, std::size_t> up_;
-};
 
 /// The places of all roots, contour by contour and in the order along it; `around`: the contours' lengths.
 std::vector<Place> places_along(const std::vector<TreeRoot>& roots, const NearestSegment& boundary,
@@ -90,10 +69,13 @@ std::vector<std::size_t> pair_roots(const std::vector<TreeRoot>& roots, const Ca
     }
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Neighbours& p, const Neighbours& q) { return p.gap < q.gap; });
-    JoinedTrees joined(roots);
+    std::size_t trees = 0;
+    for (const TreeRoot& root : roots) trees = std::max(trees, root.tree + 1);
+    boost::disjoint_sets_with_storage<> joined(trees);
     for (const Neighbours& p : pairs) {
-        if (partner[p.a] != no_root || partner[p.b] != no_root || !joined.join(roots[p.a].tree, roots[p.b].tree))
-            continue;
+        const std::size_t a = joined.find_set(roots[p.a].tree), b = joined.find_set(roots[p.b].tree);
+        if (partner[p.a] != no_root || partner[p.b] != no_root || a == b) continue;
+        joined.link(a, b);
         partner[p.a] = p.b, partner[p.b] = p.a;
     }
     return partner;

@@ -14,7 +14,7 @@ namespace ribvault {
 struct TreeRoot {
     Point at;
     double trunk;      ///< length of its tree from here to the first junction or the tip, lattice units
-    std::size_t tree;  ///< roots of the same tree have the same
+    std::size_t tree;  ///< roots of the same tree have the same; below the number of vertices
     Vec away;          ///< where its walls lead, of any length
 };
 

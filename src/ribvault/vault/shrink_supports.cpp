@@ -1,8 +1,8 @@
 #include "ribvault/vault/shrink_supports.hpp"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "ribvault/exact/real_vector.hpp"
@@ -256,17 +256,13 @@ private:
         return sum;
     }
     /// For every vertex one of its tree, the same for all of it.
-    std::vector<std::size_t> trees() const {
-        std::vector<std::size_t> up(nodes_.size());
-        std::iota(up.begin(), up.end(), std::size_t{0});
-        const auto top = [&](std::size_t v) {
-            while (up[v] != v) v = up[v] = up[up[v]];
-            return v;
-        };
+    std::vector<std::size_t> trees() {
+        boost::disjoint_sets_with_storage<> sets(nodes_.size());
         for (const Wall& w : walls_)
-            if (w.alive) up[top(w.a)] = top(w.b);
-        for (std::size_t v = 0; v < up.size(); ++v) up[v] = top(v);
-        return up;
+            if (w.alive) sets.union_set(w.a, w.b);
+        std::vector<std::size_t> tree(nodes_.size());
+        for (std::size_t v = 0; v < tree.size(); ++v) tree[v] = sets.find_set(v);
+        return tree;
     }
     /// The longest way from a root to the first junction or the tip.
     double trunk_of(std::size_t root) const {
@@ -307,37 +303,31 @@ private:
     }
     /// A root goes towards its partner.
     bool approach(std::size_t v) {
-        if (meet(v)) return true;
-        const std::size_t u = partner_[v];
-        const Vec here = vec(nodes_[v].at), there = vec(nodes_[u].at);
-        const double gap = norm(there - here);
-        if (gap <= 0) return false;
-        double reach = std::min(gap / 2, static_cast<double>(step_) - 4);
-        for (int attempt = 0; attempt < 3; ++attempt, reach /= 2) {
-            const Point p = on_shell(here + (reach / gap) * (there - here));
-            if (p == nodes_[v].at || !reachable(nodes_[v], p) || length(nodes_[u].at - p) >= gap - 1 ||
-                collides(v, p, none))
-                continue;
-            nodes_[v].at = p;
-            return true;
-        }
-        return false;
+        const Point there = nodes_[partner_[v]].at;
+        return meet(v) || go_along_shell(v, vec(there), there, 0.5 * length(there - nodes_[v].at));
     }
 
     /// A root goes along the shell towards the point that makes its walls shortest.
     bool slide(std::size_t v) {
-        const Node& node = nodes_[v];
         if (partner_[v] != none) return approach(v);
-        if (node.walls.size() != 1) return false;
-        const Point neighbour = nodes_[other(node.walls[0], v)].at;
+        if (nodes_[v].walls.size() != 1) return false;
+        const Point neighbour = nodes_[other(nodes_[v].walls[0], v)].at;
         const Segment& nearest = boundary_.edges.segments()[boundary_.edges.nearest(neighbour).index];
-        const Vec here = vec(node.at), wish = vec(nearest_point(neighbour, nearest));
-        const double before = length(neighbour - node.at);
-        double reach = std::min(norm(wish - here), static_cast<double>(step_) - 4);
-        if (norm(wish - here) < 2) return false;
+        const Vec wish = vec(nearest_point(neighbour, nearest));
+        return go_along_shell(v, wish, neighbour, norm(wish - vec(nodes_[v].at)));
+    }
+
+    /// A root goes along the shell towards `wish` by a step or `farthest`, or a part of that, if that leads it nearer
+    /// to a point.
+    bool go_along_shell(std::size_t v, Vec wish, Point nearer_to, double farthest) {
+        const Node& node = nodes_[v];
+        const Vec here = vec(node.at), way = wish - here;
+        const double before = length(nearer_to - node.at);
+        if (norm(way) < 2) return false;
+        double reach = std::min(farthest, static_cast<double>(step_) - 4);
         for (int attempt = 0; attempt < 3; ++attempt, reach /= 2) {
-            const Point p = on_shell(here + (reach / norm(wish - here)) * (wish - here));
-            if (p == node.at || !reachable(node, p) || length(neighbour - p) >= before - 1 || collides(v, p, none))
+            const Point p = on_shell(here + (reach / norm(way)) * way);
+            if (p == node.at || !reachable(node, p) || length(nearer_to - p) >= before - 1 || collides(v, p, none))
                 continue;
             nodes_[v].at = p;
             return true;
@@ -396,6 +386,27 @@ private:
         }
     }
 
+    /// The walls on both sides of a corner that may be zipped up.
+    std::optional<std::pair<std::uint32_t, std::uint32_t>> narrowest_corner(std::size_t v) const {
+        const Node& node = nodes_[v];
+        if (node.walls.size() < (node.root ? 2u : 3u)) return {};
+        std::vector<std::pair<double, std::uint32_t>> around;
+        for (const std::uint32_t w : node.walls) {
+            const Vec d = vec(nodes_[other(w, v)].at) - vec(node.at);
+            around.push_back({std::atan2(d.y, d.x), w});
+        }
+        std::sort(around.begin(), around.end());
+        double narrowest = node.root || node.walls.size() > 3 ? wide_corner : narrow_corner;
+        std::size_t best = around.size();
+        for (std::size_t k = 0; k < around.size(); ++k) {
+            const bool last = k + 1 == around.size();
+            const double angle = around[last ? 0 : k + 1].first - around[k].first + (last ? 2 * M_PI : 0);
+            if (angle < narrowest) narrowest = angle, best = k;
+        }
+        if (best == around.size()) return {};
+        return std::pair(around[best].second, around[(best + 1) % around.size()].second);
+    }
+
     /// What is at a share of the way from v to the other end of a wall, before anything moved.
     Point place_before(std::uint32_t w, std::size_t v, double share) const {
         const Segment& was = walls_[w].was;
@@ -409,23 +420,10 @@ private:
         const std::size_t n = nodes_.size();
         std::vector<char> zipped(walls_.size(), 0);  // once: its other points have moved by then
         for (std::size_t v = 0; v < n; ++v) {
-            if (nodes_[v].gone || nodes_[v].stays || nodes_[v].walls.size() < (nodes_[v].root ? 2u : 3u)) continue;
-            std::vector<std::pair<double, std::uint32_t>> around;
-            for (const std::uint32_t w : nodes_[v].walls) {
-                const Vec d = vec(nodes_[other(w, v)].at) - vec(nodes_[v].at);
-                around.push_back({std::atan2(d.y, d.x), w});
-            }
-            std::sort(around.begin(), around.end());
-            double narrowest = nodes_[v].root || nodes_[v].walls.size() > 3 ? wide_corner : narrow_corner;
-            std::size_t best = around.size();
-            for (std::size_t k = 0; k < around.size(); ++k) {
-                const bool last = k + 1 == around.size();
-                const double angle = around[last ? 0 : k + 1].first - around[k].first + (last ? 2 * M_PI : 0);
-                if (angle < narrowest) narrowest = angle, best = k;
-            }
-            if (best == around.size()) continue;
-            const std::uint32_t w1 = around[best].second, w2 = around[(best + 1) % around.size()].second;
-            if (zipped[w1] || zipped[w2]) continue;
+            if (nodes_[v].gone || nodes_[v].stays) continue;
+            const std::optional<std::pair<std::uint32_t, std::uint32_t>> corner = narrowest_corner(v);
+            if (!corner || zipped[corner->first] || zipped[corner->second]) continue;
+            const auto [w1, w2] = *corner;
             const std::size_t a = other(w1, v), b = other(w2, v);
             const Vec here = vec(nodes_[v].at), da = vec(nodes_[a].at) - here, db = vec(nodes_[b].at) - here;
             const double la = norm(da), lb = norm(db);

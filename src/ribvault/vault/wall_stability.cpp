@@ -162,6 +162,7 @@ public:
 
     /// Draws tips back by less where what is left is farther than `reach` from one of these points and the wall is not.
     void hold(const std::vector<Point>& points, double reach) {
+        if (points.empty()) return;
         std::vector<Segment> left, whole;
         std::vector<std::size_t> from;  // of `whole`: the vertex at its end away from the root
         for (auto [e, end] = edges(forest_); e != end; ++e) {
@@ -256,8 +257,7 @@ SupportForest tapered_trees(const SupportForest& forest, const Settings& setting
 std::vector<Point> ends_of_wide_trees(const SupportForest& forest) {
     std::vector<Point> ends;
     for (auto [v, end] = vertices(forest); v != end; ++v)
-        if (forest[*v].wide && out_degree(*v, forest) < 2 && (!forest[*v].root || out_degree(*v, forest) == 0))
-            ends.push_back(forest[*v].at);
+        if (forest[*v].wide && out_degree(*v, forest) < (forest[*v].root ? 1u : 2u)) ends.push_back(forest[*v].at);
     return ends;
 }
 
