@@ -107,6 +107,14 @@ TEST_CASE("walls whose roots are in the same place are zipped up from it") {
     CHECK(length(zipped.forest) < 0.6 * length(fork));
 }
 
+TEST_CASE("a corner is zipped as far when one of its walls has just been cut between two roots") {
+    const SupportForest fork =
+        forest_of({{{0, 1000000}, {2000000, 1010000}, {900000, 990000}}, {0, 1}, {{0, 1}, {0, 2}}});
+    const SupportForest zipped = shrink_supports(fork, square(), 20000).forest;
+    CHECK(component_count(zipped) == 2);
+    CHECK(length(zipped) < length(fork) - 700000);
+}
+
 TEST_CASE("what is left of a zipped corner is zipped on the next layers, while it is narrow") {
     SupportForest fork = forest_of({{{0, 1000000}, {900000, 1040000}, {900000, 960000}}, {0}, {{0, 1}, {0, 2}}});
     const CavityBoundary shell = square();
