@@ -9,7 +9,7 @@ using namespace ribvault;
 namespace {
 
 constexpr Unit mm = units_per_mm;
-constexpr double least = 0.1 * mm;
+constexpr double least = 0.1 * mm, most = 0.5 * mm;
 
 PathCorners corners_of(std::vector<Point> at) {
     PathCorners corners{std::move(at), {0}};
@@ -19,7 +19,7 @@ PathCorners corners_of(std::vector<Point> at) {
 }
 
 std::vector<Point> path_by(const PathCorners& corners, const std::vector<SideBranches>& beside, double gap = 0) {
-    return bent_path(corners, gap, bends_of(corners, gap, beside, least));
+    return bent_path(corners, gap, bends_of(corners, gap, beside, least, most));
 }
 
 SideBranches branch(double along, Point tip, double reach) { return {along, {tip}, reach}; }
@@ -44,6 +44,11 @@ TEST_CASE("a bend takes less track than a straight path and its branch") {
 TEST_CASE("a branch shorter than a quarter of a track's width has a bend of that much on either side") {
     CHECK(path_by(straight, {branch(5 * mm, {5 * mm, 200}, 200)}) ==
           std::vector<Point>{{0, 0}, {5 * mm - 10000, 0}, {5 * mm, 200}, {5 * mm + 10000, 0}, {10 * mm, 0}});
+}
+
+TEST_CASE("a path goes steeply to the tip of a long branch") {
+    CHECK(path_by(straight, {branch(5 * mm, {5 * mm, 60000}, 60000)}) ==
+          std::vector<Point>{{0, 0}, {5 * mm - 50000, 0}, {5 * mm, 60000}, {5 * mm + 50000, 0}, {10 * mm, 0}});
 }
 
 TEST_CASE("two branches at one place are taken along in the order of the path") {
@@ -73,7 +78,7 @@ TEST_CASE("neighbours share the way between them, and a path runs through the co
 TEST_CASE("there is no bend without room for half of it") {
     const SideBranches at_middle = branch(5 * mm, {5 * mm, 30000}, 30000);
     const auto bends = [&](const std::vector<SideBranches>& beside, double gap = 0) {
-        return bends_of(straight, gap, beside, least).size();
+        return bends_of(straight, gap, beside, least, most).size();
     };
     CHECK(bends({at_middle, own_track(5 * mm + 15000)}) == 1);
     CHECK(bends({at_middle, own_track(5 * mm + 14999)}) == 0);

@@ -25,7 +25,7 @@ void sort_along(std::vector<Point>& tips, Point a, Point b) {
 }  // namespace
 
 std::vector<Bend> bends_of(const PathCorners& corners, double gap, const std::vector<SideBranches>& beside,
-                           double least) {
+                           double least, double most) {
     std::vector<Bend> bends;
     for (std::size_t k = 0; k < beside.size(); ++k) {
         const SideBranches& here = beside[k];
@@ -33,7 +33,7 @@ std::vector<Bend> bends_of(const PathCorners& corners, double gap, const std::ve
         const auto room_to = [&](const SideBranches& other) {
             return std::abs(other.along - here.along) / (other.tips.empty() ? 1 : 2);
         };
-        const double wanted = std::max(here.longest, least);
+        const double wanted = std::clamp(here.longest, least, most);
         double before = std::min(wanted, here.along - gap), after = std::min(wanted, corners.along.back() - here.along);
         if (k > 0) before = std::min(before, room_to(beside[k - 1]));
         if (k + 1 < beside.size()) after = std::min(after, room_to(beside[k + 1]));

@@ -30,13 +30,14 @@ struct Bend {
 };
 
 /// Bends for all of `beside` (by increasing `along`) that have tips, of a path without its first `gap`. A bend begins
-/// and ends as far from its corner as its longest branch is long (at least `least`), so it goes aside at 45°, nearer
-/// where the next branch or an end of the path is; where it would have less than half of that there is none. Beside a
-/// straight wall it takes less track than wall and branch, where the path turns or branches lie opposite up to half of
-/// the branches' length more, and a travel less in any case. It may cut across a corner of the shell by less than the
-/// branches' length: S_i lies in the cavity, its bends are tracks.
+/// and ends as far from its corner as its longest branch is long, but between `least` and `most`: it goes aside at 45°
+/// or more steeply, nearer where the next branch or an end of the path is; where it would have less than half of that
+/// there is none. Beside a straight wall a bend at 45° takes less track than wall and branch, a steeper one, or one
+/// where the path turns or branches lie opposite, up to half of the branches' length more, and a travel less in any
+/// case. It may cut across a corner of the shell by less than the branches' length: S_i lies in the cavity, its bends
+/// are tracks.
 std::vector<Bend> bends_of(const PathCorners& corners, double gap, const std::vector<SideBranches>& beside,
-                           double least);
+                           double least, double most);
 
 /// The path without its first `gap`, with these bends (by increasing `from`, apart from each other). Points between
 /// corners are rounded to the lattice, once; consecutive points differ. Precondition: it is longer than `gap`.

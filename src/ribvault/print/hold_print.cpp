@@ -61,9 +61,7 @@ public:
             hanging = open();
         }
         for (int laid = 1; settings_.gaps == Gaps::proved && !hanging.empty() && laid < rounds; ++laid) {
-            const NearHanging near(*this, hanging);
-            const bool straightened = straighten_bends(near), closed = close_gaps(near);
-            if (!straightened && !closed) break;
+            if (!close_gaps(NearHanging(*this, hanging))) break;
             lay_supports();
             look_again();
             hanging = open();
@@ -225,23 +223,6 @@ private:
             }
         }
         return held_.closed_gaps > before;
-    }
-    /// Branches under what hangs get a track of their own from now on, so that the path beside them need not bend. Are
-    /// there new ones?
-    bool straighten_bends(const NearHanging& hanging) {
-        if (held_.plan.bends == 0) return false;
-        bool any = false;
-        for (auto [e, end] = edges(forest_); e != end; ++e) {
-            SupportEdge& edge = forest_[*e];
-            const std::size_t a = source(*e, forest_), b = target(*e, forest_);
-            if (!edge.may_bend || !(edge.first_layer || edge.to_junction)) continue;
-            if (std::max(out_degree(a, forest_), out_degree(b, forest_)) < 3) continue;
-            const Segment wall{forest_[a].at, forest_[b].at};
-            if (length(wall.b - wall.a) > static_cast<double>(settings_.nozzle) || !hanging.has(wall)) continue;
-            edge.may_bend = false;
-            any = true;
-        }
-        return any;
     }
     /// Puts patches under what hangs and lays them with the tracks that are there. From now on those stay as they are.
     void patch(const std::vector<HangingTrack>& open, int round) {

@@ -48,7 +48,7 @@ struct HeldLayer {
 /// track by d / 4, with any gaps.
 ///
 /// With Gaps::proved, paths in cavities go by the tips of short branches, which then need no track of their own
-/// (print/bent_path.hpp); where the verifier finds that something hangs because of it they get one.
+/// (print/bent_path.hpp).
 ///
 /// First with the gaps of Section 4.4. Where the verifier finds something of `above` that these leave unsupported, the
 /// branches nearby are printed up to their junction (settings.gaps == Gaps::proved; with Gaps::paper nothing is done

@@ -124,7 +124,7 @@ SideBranches side_branches(const RootedForest& f, Vertex v, double along, std::s
     SideBranches beside{along, {}, 0};
     for (const Vertex w : subtrees) {
         const double whole = f.edge_length[w] + f.reach[w];
-        const Vertex tip = f.may_bend[w] && whole <= f.width ? tip_of(f, v, w) : no_vertex;
+        const Vertex tip = f.may_bend[w] && 2 * whole <= 3 * f.width ? tip_of(f, v, w) : no_vertex;
         if (tip == no_vertex) return {along, {}, 0};
         beside.tips.push_back(f.at(tip));
         beside.longest = std::max(beside.longest, whole);
@@ -152,6 +152,7 @@ void set_gaps_along(RootedForest& f, const std::vector<Vertex>& vertices, double
 /// vertices.
 std::vector<Bend> take_along(const RootedForest& f, const std::vector<Vertex>& vertices, const PathCorners& corners,
                              double gap, std::vector<std::vector<Vertex>>& aside) {
+    const double width = static_cast<double>(f.width);
     std::vector<SideBranches> beside;
     std::vector<std::size_t> at;
     for (std::size_t k = 1; k < vertices.size(); ++k) {
@@ -159,7 +160,7 @@ std::vector<Bend> take_along(const RootedForest& f, const std::vector<Vertex>& v
         beside.push_back(side_branches(f, vertices[k], corners.along[k], aside[k]));
         at.push_back(k);
     }
-    std::vector<Bend> bends = bends_of(corners, gap, beside, static_cast<double>(f.width) / 4);
+    std::vector<Bend> bends = bends_of(corners, gap, beside, width / 4, 0.7 * width);
     for (const Bend& bend : bends) aside[at[bend.branches]].clear();
     return bends;
 }
