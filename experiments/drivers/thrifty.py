@@ -10,7 +10,7 @@ PAPERS = ["cube", "bunny", "moai", "kitten"]
 # Named before the strategy was tried on them: the meshes that the models' list names, and three more, all 50 mm high.
 MESHES = ["bunny00", "elephant", "armadillo", "bear", "camel", "fandisk", "knot", "dino", "hand", "anchor"]
 PEER_MM3 = {"cube": 217, "bunny": 1117, "moai": 773, "kitten": 601}  # CuraEngine 4.13, lightning fill, not all of it supported
-INGREDIENTS = {"all": (), "no shrink": ("--no-shrink",), "no trim": ("--no-trim",), "no doubling": ("--no-doubling",), "half bonus": ("--narrow-bonus", "half"), "whole bonus": ("--narrow-bonus", "whole")}
+INGREDIENTS = {"all": (), "no shrink": ("--no-shrink",), "no trim": ("--no-trim",), "no doubling": ("--no-doubling",), "whole bonus": ("--quarter-bonus", "nowhere"), "quarter in narrow places": ("--quarter-bonus", "narrow"), "quarter everywhere": ("--quarter-bonus", "everywhere")}
 MM3_PER_MM = 0.4 * 0.2  # of track
 
 

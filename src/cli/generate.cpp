@@ -21,7 +21,7 @@ struct Written {
     std::optional<Unit> first_layer_height, support_radius, erosion_step, straighten_step, branch_bonus, pitch,
         pillar_length;
     std::optional<Rational> overlap;
-    std::string strategy = "paper", narrow_bonus;
+    std::string strategy = "paper", quarter_bonus;
     bool no_shrink = false, no_trim = false, no_doubling = false;
     bool no_straighten = false, no_branch_bonus = false, quiet = false;
     std::string rotate, up = "z";
@@ -53,8 +53,11 @@ void choose_strategy(const Written& w, Settings& s) {
     s.propagation = shrink ? Propagation::shrink : Propagation::erode_straighten;
     s.order = thrifty && !w.no_doubling ? Order::doubling : Order::distance;
     s.trim = thrifty && !w.no_trim;
-    const std::string bonus = !w.narrow_bonus.empty() ? w.narrow_bonus : thrifty ? "chosen" : "whole";
-    s.choose_bonus = bonus == "chosen", s.narrow_bonus = bonus != "whole";
+    const std::string places = !w.quarter_bonus.empty() ? w.quarter_bonus : thrifty ? "chosen" : "nowhere";
+    s.choose_bonus = places == "chosen";
+    s.quarter_bonus = places == "nowhere"      ? QuarterBonus::nowhere
+                      : places == "everywhere" ? QuarterBonus::everywhere
+                                               : QuarterBonus::narrow;
 }
 
 void add_geometry(CLI::App* command, Written& w) {
@@ -103,10 +106,10 @@ void add_geometry(CLI::App* command, Written& w) {
     supports->add_flag("--no-shrink", w.no_shrink, "thrifty without its descent of length");
     supports->add_flag("--no-trim", w.no_trim, "thrifty without trimming new walls");
     supports
-        ->add_option("--narrow-bonus", w.narrow_bonus,
-                     "equation (4)'s bonus in narrow places: half, whole, or chosen: what takes less (default whole, "
-                     "thrifty: chosen)")
-        ->check(CLI::IsMember({"half", "whole", "chosen"}))
+        ->add_option("--quarter-bonus", w.quarter_bonus,
+                     "where equation (4)'s bonus counts a quarter: nowhere, narrow (places), everywhere, or chosen: "
+                     "which of the last two takes less (default nowhere, thrifty: chosen)")
+        ->check(CLI::IsMember({"nowhere", "narrow", "everywhere", "chosen"}))
         ->type_name("NAME");
     add_whole(supports, "--tries", s.tries, "seeds to try; the one that takes the least is used (default 1)");
     supports->add_flag("--no-doubling", w.no_doubling, "thrifty with the paper's order of points");

@@ -20,6 +20,13 @@ enum class Order {
     doubling   ///< the nearest by its distance to B_i rounded down to ρ, 2ρ, 4ρ, ...: at random within such a band
 };
 
+/// Where equation (4)'s bonus counts a quarter only.
+enum class QuarterBonus {
+    nowhere,
+    narrow,  ///< where what is unsupported is narrow: no disc of radius 3/4 d has room in its piece
+    everywhere
+};
+
 /// What becomes of the gaps of Section 4.4, in which a branch stops one track width short of its junction.
 enum class Gaps {
     proved,  ///< they stay where the print is supported with them (print/hold_print.hpp)
@@ -64,10 +71,10 @@ struct Settings {
     Unit straighten_step = 20000;  ///< how far a vertex moves per layer
     bool branch_bonus = true;      ///< equation (4)
     Unit branch_bonus_length = 80000;  ///< 4r
-    /// Half of it where what is unsupported is narrow: no disc of radius 3/4 d has room in its piece.
-    bool narrow_bonus = false;
-    bool choose_bonus = false;  ///< narrow_bonus is as takes less track over all layers (pipeline/choose_supports.hpp)
-    int tries = 1;              ///< so many seeds from `seed` on are tried; the one that takes the least track is used
+    QuarterBonus quarter_bonus = QuarterBonus::nowhere;
+    bool choose_bonus = false;  ///< quarter_bonus is what of narrow and everywhere takes less
+                                ///< (pipeline/choose_supports.hpp)
+    int tries = 1;              ///< so many seeds from `seed` on are tried; the one that takes the least is used
     bool length_bound = false;  ///< the report gives a lower bound on the supports' length (vault/length_bound.hpp)
     int valence_limit = 4;             ///< the bonus counts for valence 1 .. valence_limit - 1
     std::uint64_t seed = 1;            ///< ties of Section 4.3

@@ -85,7 +85,7 @@ class Options(unittest.TestCase):
 
     def test_names_are_those_of_the_page(self):
         for name, value in rows():
-            if name in ("--strategy", "--gaps", "--support", "--covers", "--seam", "--up", "--flavour", "--narrow-bonus", "--printer"):
+            if name in ("--strategy", "--gaps", "--support", "--covers", "--seam", "--up", "--flavour", "--quarter-bonus", "--printer"):
                 choices = re.findall(r"`([a-z][a-z0-9-]*)`", value)
                 self.assertGreater(len(choices), 1, name)
                 for choice in choices:

@@ -297,16 +297,16 @@ TEST_CASE("the paper's models are proved, their shells as an independent library
         }
 }
 
-TEST_CASE("of the ways to grow supports the run uses the one that takes the least track") {
+TEST_CASE("of the ways to grow supports the run uses the one that costs least") {
     const Folder folder;
     std::mt19937_64 random(5);
     Job job;
     job.model = folder.file("solid.off", random_solid(random));
     job.threads = 2;
     job.settings.branch_bonus_length = 160000;
-    const auto run = [&](bool narrow, std::uint64_t seed) {
+    const auto run = [&](QuarterBonus bonus, std::uint64_t seed) {
         Job one = job;
-        one.settings.narrow_bonus = narrow, one.settings.seed = seed;
+        one.settings.quarter_bonus = bonus, one.settings.seed = seed;
         const RunReport report = generate(one);
         CHECK(report.candidates.empty());
         return report;
@@ -324,13 +324,15 @@ TEST_CASE("of the ways to grow supports the run uses the one that takes the leas
     REQUIRE(chosen.candidates.size() == 6);
     std::set<double> lengths;
     for (const Candidate& c : chosen.candidates) {
-        CHECK(c.length_mm == Approx(run(c.narrow_bonus, c.seed).totals.support_length_mm));
-        CHECK(c.length_mm >= chosen.candidates.front().length_mm);
+        CHECK(c.length_mm == Approx(run(c.quarter_bonus, c.seed).totals.support_length_mm));
+        CHECK(c.tips > 0);
+        CHECK(c.cost_mm == Approx(c.length_mm + 0.32 * static_cast<double>(c.tips)));
+        CHECK(c.cost_mm >= chosen.candidates.front().cost_mm);
         lengths.insert(c.length_mm);
     }
     CHECK(lengths.size() > 2);
     CHECK(chosen.settings.seed == chosen.candidates.front().seed);
-    CHECK(chosen.settings.narrow_bonus == chosen.candidates.front().narrow_bonus);
+    CHECK(chosen.settings.quarter_bonus == chosen.candidates.front().quarter_bonus);
     CHECK(chosen.totals.support_length_mm == Approx(chosen.candidates.front().length_mm));
     CHECK(chosen.verdict.proved);
     // What the sweep before the run has made is printed as the run alone would have made it: branches that end, what
@@ -351,7 +353,7 @@ TEST_CASE("of the ways to grow supports the run uses the one that takes the leas
         return text(*one.gcode) + text(*one.layers);
     };
     Job alone = job;
-    alone.settings.narrow_bonus = chosen.settings.narrow_bonus, alone.settings.seed = chosen.settings.seed;
+    alone.settings.quarter_bonus = chosen.settings.quarter_bonus, alone.settings.seed = chosen.settings.seed;
     const std::string printed = page(alone);
     CHECK(printed.size() > 100000);
     CHECK((page(open) == printed));

@@ -172,25 +172,28 @@ TEST_CASE("ties are broken by the seed: the same seed gives the same bytes, anot
     CHECK(grown(2) != grown(3));
 }
 
-TEST_CASE("narrow places have half the bonus when asked for, wide ones never") {
+TEST_CASE("a quarter of the bonus counts nowhere, in narrow places or everywhere") {
     const auto walls = [](const SupportForest& forest) {
         std::vector<std::pair<Point, Point>> all;
         for (auto [e, end] = edges(forest); e != end; ++e)
             all.push_back({forest[source(*e, forest)].at, forest[target(*e, forest)].at});
         return all;
     };
-    Settings whole, half, narrow;
-    half.branch_bonus_length /= 2;
-    narrow.narrow_bonus = true;
+    Settings whole, quarter, narrow, everywhere;
+    quarter.branch_bonus_length /= 4;
+    narrow.quarter_bonus = QuarterBonus::narrow, everywhere.quarter_bonus = QuarterBonus::everywhere;
     // On either side of twice 3/4 d = 0.6 mm, far enough from the shell and long enough for many walls.
     const Region band{rectangle(-900000, 500000, 900000, 559000)}, roof{rectangle(-900000, 500000, 900000, 561500)};
     const auto grown = [&](const Region& region, const Settings& settings) {
         return walls(grow_supports({}, region, room, 1, settings));
     };
-    CHECK(grown(band, whole) != grown(band, half));
-    CHECK(grown(band, narrow) == grown(band, half));
-    CHECK(grown(roof, whole) != grown(roof, half));
+    for (const Region& region : {band, roof}) {
+        CHECK(grown(region, whole) != grown(region, quarter));
+        CHECK(grown(region, everywhere) == grown(region, quarter));
+    }
+    CHECK(grown(band, narrow) == grown(band, quarter));
     CHECK(grown(roof, narrow) == grown(roof, whole));
-    narrow.branch_bonus = half.branch_bonus = false;
-    CHECK(grown(band, narrow) == grown(band, half));
+    narrow.branch_bonus = everywhere.branch_bonus = quarter.branch_bonus = false;
+    CHECK(grown(band, narrow) == grown(band, quarter));
+    CHECK(grown(band, everywhere) == grown(band, quarter));
 }

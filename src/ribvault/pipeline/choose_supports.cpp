@@ -11,13 +11,25 @@
 namespace ribvault {
 namespace {
 
+/// How much track a tip takes beyond its wall, in widths of a track: its round end, what closes gaps and holds up what
+/// they leave. Fitted to the extruded volumes of eight models, each grown in nine ways: 0.6 to 1.
+constexpr double cost_of_tip = 0.8;
 constexpr std::size_t most_kept = 8;  ///< sweeps on disk at a time: about as much as their layers' G-code each
 
 struct Sweep {
     Settings settings;
     LayerSupports supports;
     double length = 0;  ///< lattice units
+    std::size_t tips = 0;
 };
+
+/// Ends of walls that are no root, and dots.
+std::size_t tips_of(const SupportForest& forest) {
+    const auto [begin, end] = vertices(forest);
+    return static_cast<std::size_t>(std::count_if(begin, end, [&](std::size_t v) {
+        return out_degree(v, forest) == 0 || (out_degree(v, forest) == 1 && !forest[v].root);
+    }));
+}
 
 /// The next layer of a sweep. Returns the one before it, which is complete now, if it is to be kept.
 std::string step(Sweep& sweep, const Token& token, bool keep) {
@@ -25,6 +37,7 @@ std::string step(Sweep& sweep, const Token& token, bool keep) {
     std::string done = keep ? packed_supports(sweep.supports) : std::string();
     sweep.supports = std::move(next);
     sweep.length += length(sweep.supports.forest);
+    sweep.tips += tips_of(sweep.supports.forest);
     return done;
 }
 
@@ -44,11 +57,12 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
                         const OutsideRoom* room, const std::function<void(int, int)>& progress) {
     namespace tbb = oneapi::tbb;
     std::vector<Sweep> sweeps;
+    std::vector<QuarterBonus> bonuses{settings.quarter_bonus};
+    if (settings.choose_bonus && settings.branch_bonus) bonuses = {QuarterBonus::narrow, QuarterBonus::everywhere};
     for (int k = 0; k < settings.tries; ++k)
-        for (const bool narrow : {true, false}) {
-            if (narrow != settings.narrow_bonus && !(settings.choose_bonus && settings.branch_bonus)) continue;
-            sweeps.push_back({settings, {}, 0});
-            sweeps.back().settings.narrow_bonus = narrow;
+        for (const QuarterBonus bonus : bonuses) {
+            sweeps.push_back({settings, {}});
+            sweeps.back().settings.quarter_bonus = bonus;
             sweeps.back().settings.seed = settings.seed + static_cast<std::uint64_t>(k);
         }
     if (sweeps.size() < 2) return {};
@@ -78,11 +92,13 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
                            front.filter() & tbb::make_filter<TokenPtr, void>(tbb::filter_mode::serial_in_order, sweep));
     end_if(stop);
 
-    for (const Sweep& s : sweeps)
-        chosen.candidates.push_back({s.settings.narrow_bonus, s.settings.seed, s.length / units_per_mm});
-    const auto least =
-        std::min_element(chosen.candidates.begin(), chosen.candidates.end(),
-                         [](const Candidate& a, const Candidate& b) { return a.length_mm < b.length_mm; });
+    for (const Sweep& s : sweeps) {
+        const double cost = s.length + cost_of_tip * static_cast<double>(settings.nozzle) * static_cast<double>(s.tips);
+        chosen.candidates.push_back(
+            {s.settings.quarter_bonus, s.settings.seed, s.length / units_per_mm, s.tips, cost / units_per_mm});
+    }
+    const auto least = std::min_element(chosen.candidates.begin(), chosen.candidates.end(),
+                                        [](const Candidate& a, const Candidate& b) { return a.cost_mm < b.cost_mm; });
     chosen.sweep = static_cast<std::size_t>(least - chosen.candidates.begin());
     std::rotate(chosen.candidates.begin(), least, least + 1);
     if (chosen.supports)

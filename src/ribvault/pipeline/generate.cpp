@@ -123,7 +123,7 @@ private:
         chosen_ = sweep_candidates(slicer, job_.settings, job_.threads, job_.stop, room, job_.choosing);
         report_.candidates = chosen_.candidates;
         if (!report_.candidates.empty()) {
-            job_.settings.narrow_bonus = report_.candidates.front().narrow_bonus,
+            job_.settings.quarter_bonus = report_.candidates.front().quarter_bonus,
             job_.settings.seed = report_.candidates.front().seed;
             times_["choose"] = seconds_since(from);
         }

@@ -39,6 +39,10 @@ Json placement(const Placement& p) {
     return {{"rotation", rotation}, {"axes", axes}, {"scale", p.scale.get_str()}, {"offset_mm", offset}};
 }
 
+const char* name_of(QuarterBonus places) {
+    return places == QuarterBonus::nowhere ? "nowhere" : places == QuarterBonus::narrow ? "narrow" : "everywhere";
+}
+
 Json settings(const Settings& s) {
     return {{"layer_height_mm", to_mm(s.layer_height)},
             {"first_layer_height_mm", to_mm(s.first_layer_height)},
@@ -49,20 +53,24 @@ Json settings(const Settings& s) {
             {"bottom_layers", s.bottom_layers},
             {"propagation", s.propagation == Propagation::shrink ? "shrink" : "erode_straighten"},
             {"order", s.order == Order::doubling ? "doubling" : "distance"},
-            {"support", s.support == Support::external ? "external" : s.support == Support::both ? "both" : "internal"},
+            {"support", s.support == Support::external ? "external"
+                        : s.support == Support::both   ? "both"
+                                                       : "internal"},
             {"support_gap_mm", to_mm(s.support_gap)},
             {"support_gap_layers", s.support_gap_layers},
             {"bed_only", s.bed_only},
             {"pillars", s.pillars},
             {"pillar_length_mm", to_mm(s.pillar_length)},
             {"trim", s.trim},
-            {"gaps", s.gaps == Gaps::proved ? "proved" : s.gaps == Gaps::paper ? "paper" : "none"},
+            {"gaps", s.gaps == Gaps::proved  ? "proved"
+                     : s.gaps == Gaps::paper ? "paper"
+                                             : "none"},
             {"erosion_step_mm", to_mm(s.erosion_step)},
             {"straighten", s.straighten},
             {"straighten_step_mm", to_mm(s.straighten_step)},
             {"branch_bonus", s.branch_bonus},
             {"branch_bonus_length_mm", to_mm(s.branch_bonus_length)},
-            {"narrow_bonus", s.narrow_bonus},
+            {"quarter_bonus", name_of(s.quarter_bonus)},
             {"choose_bonus", s.choose_bonus},
             {"length_bound", s.length_bound},
             {"valence_limit", s.valence_limit},
@@ -292,8 +300,11 @@ std::string run_members(const RunReport& report, std::string_view separator) {
     member("printer", printer(report.printer));
     Json candidates = Json::array();
     for (const Candidate& c : report.candidates)
-        candidates.push_back(
-            {{"narrow_bonus", c.narrow_bonus}, {"seed", c.seed}, {"support_length_mm", measured(c.length_mm)}});
+        candidates.push_back({{"quarter_bonus", name_of(c.quarter_bonus)},
+                              {"seed", c.seed},
+                              {"support_length_mm", measured(c.length_mm)},
+                              {"tips", c.tips},
+                              {"cost_mm", measured(c.cost_mm)}});
     member("candidates", candidates);
     member("verdict", summary(report.verdict));
     member("totals", totals(report.totals, report.layers.size()));

@@ -129,11 +129,13 @@ struct MachineFacts {
     std::map<std::string, double> stage_seconds;  ///< busy time of each stage, summed over threads
 };
 
-/// One way to grow the supports, and the length of all their tracks.
+/// One way to grow the supports, and what it takes over all layers.
 struct Candidate {
-    bool narrow_bonus = false;
+    QuarterBonus quarter_bonus = QuarterBonus::nowhere;
     std::uint64_t seed = 1;
-    double length_mm = 0;
+    double length_mm = 0;  ///< of all tracks
+    std::size_t tips = 0;  ///< ends of walls that are no root, and dots
+    double cost_mm = 0;    ///< what is compared (pipeline/choose_supports.hpp)
 };
 
 struct RunReport {

@@ -64,7 +64,7 @@ public:
           slack_(static_cast<double>(settings.slack)),
           unsupported_(unsupported, settings),
           supports_(std::move(forest), boundary.location.box(), boundary, settings) {
-        if (settings.branch_bonus && settings.narrow_bonus)
+        if (settings.branch_bonus && settings.quarter_bonus == QuarterBonus::narrow)
             wide_ = PointLocation(wide_pieces(unsupported, settings.nozzle), units_per_mm);
     }
 
@@ -84,8 +84,9 @@ private:
     /// Equation (4)'s bonus for a wall to p.
     Unit bonus(Point p) const {
         if (!settings_.branch_bonus) return 0;
-        const bool narrow = settings_.narrow_bonus && wide_.locate(p) == Side::outside;
-        return narrow ? settings_.branch_bonus_length / 2 : settings_.branch_bonus_length;
+        const bool quarter = settings_.quarter_bonus == QuarterBonus::everywhere ||
+                             (settings_.quarter_bonus == QuarterBonus::narrow && wide_.locate(p) == Side::outside);
+        return quarter ? settings_.branch_bonus_length / 4 : settings_.branch_bonus_length;
     }
 
     static double half_diagonal(const Box& box) { return UnsupportedCells::half_diagonal(box); }
@@ -166,7 +167,7 @@ private:
     std::uint64_t seed_;
     double radius_, slack_;
     UnsupportedCells unsupported_;
-    PointLocation wide_;  ///< where the bonus counts in full, with settings.narrow_bonus
+    PointLocation wide_;  ///< where the bonus counts in full, with QuarterBonus::narrow
     GrowingSupports supports_;
 };
 
