@@ -108,7 +108,7 @@ void add_geometry(CLI::App* command, Written& w) {
     supports
         ->add_option("--quarter-bonus", w.quarter_bonus,
                      "where equation (4)'s bonus counts a quarter: nowhere, narrow (places), everywhere, or chosen: "
-                     "which of the last two takes less (default nowhere, thrifty: chosen)")
+                     "what takes least (default nowhere, thrifty: chosen)")
         ->check(CLI::IsMember({"nowhere", "narrow", "everywhere", "chosen"}))
         ->type_name("NAME");
     add_whole(supports, "--tries", s.tries, "seeds to try; the one that takes the least is used (default 1)");

@@ -72,8 +72,7 @@ struct Settings {
     bool branch_bonus = true;      ///< equation (4)
     Unit branch_bonus_length = 80000;  ///< 4r
     QuarterBonus quarter_bonus = QuarterBonus::nowhere;
-    bool choose_bonus = false;  ///< quarter_bonus is what of narrow and everywhere takes less
-                                ///< (pipeline/choose_supports.hpp)
+    bool choose_bonus = false;  ///< quarter_bonus is what takes least (pipeline/choose_supports.hpp)
     int tries = 1;              ///< so many seeds from `seed` on are tried; the one that takes the least is used
     bool length_bound = false;  ///< the report gives a lower bound on the supports' length (vault/length_bound.hpp)
     int valence_limit = 4;             ///< the bonus counts for valence 1 .. valence_limit - 1
