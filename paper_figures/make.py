@@ -37,7 +37,7 @@ RECIPES = {
     16: [("stages", "cube", ("--layer", "98"))],
     17: [("layers", "cube", ("--from", "97", "--no-branch-bonus")), ("layers", "cube", ("--from", "97"))],
     18: [("stages", "cube", ("--scale", "0.35", "--layer", "33"))],
-    19: [("tree", "cube", ("--layer", "84", "--branches", "6"))],
+    19: [("tree", "cube", ("--layer", "84", "--branches", "6", "--gaps", "paper"))],
     20: [("layers", "cube", ("--gaps", "paper"))],
     24: [("table", "figure24")],
     25: [(kind, *run, *cut) for run, at in ((("low_roof", NO_COVER), "front"), (("far_tip", NO_COVER), "front"), (("hanging_tip", (*NO_COVER, "--support", "external")), "whole"))

@@ -53,7 +53,9 @@ void choose_strategy(const Written& w, Settings& s) {
     s.propagation = shrink ? Propagation::shrink : Propagation::erode_straighten;
     s.order = thrifty && !w.no_doubling ? Order::doubling : Order::distance;
     s.trim = thrifty && !w.no_trim;
-    const std::string places = !w.quarter_bonus.empty() ? w.quarter_bonus : thrifty ? "chosen" : "nowhere";
+    const std::string places = !w.quarter_bonus.empty()        ? w.quarter_bonus
+                               : thrifty && !w.no_branch_bonus ? "chosen"
+                                                               : "nowhere";
     s.choose_bonus = places == "chosen";
     s.quarter_bonus = places == "nowhere"      ? QuarterBonus::nowhere
                       : places == "everywhere" ? QuarterBonus::everywhere
@@ -105,12 +107,6 @@ void add_geometry(CLI::App* command, Written& w) {
                "proved)");
     supports->add_flag("--no-shrink", w.no_shrink, "thrifty without its descent of length");
     supports->add_flag("--no-trim", w.no_trim, "thrifty without trimming new walls");
-    supports
-        ->add_option("--quarter-bonus", w.quarter_bonus,
-                     "where equation (4)'s bonus counts a quarter: nowhere, narrow (places), everywhere, or chosen: "
-                     "what takes least (default nowhere, thrifty: chosen)")
-        ->check(CLI::IsMember({"nowhere", "narrow", "everywhere", "chosen"}))
-        ->type_name("NAME");
     add_whole(supports, "--tries", s.tries, "seeds to try; the one that takes the least is used (default 1)");
     supports->add_flag("--no-doubling", w.no_doubling, "thrifty with the paper's order of points");
     supports->add_flag("--length-bound", s.length_bound, "report how short any supports could be at least");
@@ -130,6 +126,13 @@ void add_geometry(CLI::App* command, Written& w) {
         supports->add_flag("--no-branch-bonus", w.no_branch_bonus, "leave out the heuristic of equation (4)");
     add_length(supports, "--branch-bonus", w.branch_bonus, "its bonus (default: twice the nozzle, 4r)")
         ->excludes(no_bonus);
+    supports
+        ->add_option("--quarter-bonus", w.quarter_bonus,
+                     "where that bonus counts a quarter: nowhere, narrow (places), everywhere, or chosen: what takes "
+                     "least (default nowhere, thrifty: chosen)")
+        ->excludes(no_bonus)
+        ->check(CLI::IsMember({"nowhere", "narrow", "everywhere", "chosen"}))
+        ->type_name("NAME");
     add_whole(supports, "--valence-limit", s.valence_limit, "valence from which a junction has no bonus (default 4)");
     supports
         ->add_option_function<std::string>(

@@ -131,7 +131,7 @@ class Options(unittest.TestCase):
     def test_what_has_no_effect_is_refused(self):
         for arguments in (["--no-shrink"], ["--no-trim"], ["--no-doubling"], ["--strategy", "thrifty", "--no-straighten"],
                           ["--strategy", "thrifty", "--straighten-step", "0.1"], ["--skirt-distance", "2"], ["--support-extruder", "1"], ["--support-temperature", "210"], ["--wall-lines-longer", "3"], ["--wall-lines-taller", "3"],
-                          ["--branch-bonus", "1", "--no-branch-bonus"], ["--support-gap", "0.2"], ["--bed-only"], ["--overlap", "0.99"]):
+                          ["--branch-bonus", "1", "--no-branch-bonus"], ["--quarter-bonus", "narrow", "--no-branch-bonus"], ["--support-gap", "0.2"], ["--bed-only"], ["--overlap", "0.99"]):
             self.assertIn(next(a for a in arguments if a.startswith("--") and a != "--strategy"), self.refused("generate", CUBE, *arguments))
         self.accepted("--strategy", "thrifty", "--no-shrink", "--no-straighten")
 

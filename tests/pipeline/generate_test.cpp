@@ -323,7 +323,9 @@ TEST_CASE("of the ways to grow supports the run uses the one that costs least") 
     CHECK(steps == static_cast<int>(chosen.layers.size()));
     REQUIRE(chosen.candidates.size() == 6);
     std::set<double> lengths;
+    std::set<std::pair<QuarterBonus, std::uint64_t>> ways;
     for (const Candidate& c : chosen.candidates) {
+        ways.emplace(c.quarter_bonus, c.seed);
         CHECK(c.length_mm == Approx(run(c.quarter_bonus, c.seed).totals.support_length_mm));
         CHECK(c.tips > 0);
         CHECK(c.cost_mm == Approx(c.length_mm + 0.5 * static_cast<double>(c.tips)));
@@ -331,6 +333,7 @@ TEST_CASE("of the ways to grow supports the run uses the one that costs least") 
         lengths.insert(c.length_mm);
     }
     CHECK(lengths.size() > 2);
+    CHECK(ways.size() == 6);
     CHECK(chosen.settings.seed == chosen.candidates.front().seed);
     CHECK(chosen.settings.quarter_bonus == chosen.candidates.front().quarter_bonus);
     CHECK(chosen.totals.support_length_mm == Approx(chosen.candidates.front().length_mm));

@@ -89,13 +89,16 @@ TEST_CASE("a short branch needs no track of its own: the path beside it bends to
 }
 
 TEST_CASE("what would hang because a path bends gets a patch") {
-    // 0.18 mm on the other side of the trunk: its rim is 0.38 mm from the trunk and 0.48 mm from the bend.
+    // 0.18 mm on the other side of the trunk: its rim is 0.38 mm from the trunk and 0.47 mm from the bend.
     const PrintedLayer above =
         print_of({track(TrackKind::support, false, {{0, 10 * mm - 18000}, {14 * mm, 10 * mm - 18000}})});
     const HeldLayer held = hold_print(square_shell(), trunk_and_stub(), &above, {});
     CHECK(held.plan.bends == 1);
     CHECK(held.patches > 0);
     CHECK(judge_print(above, *held.printed, {}).supported);
+    Settings straight;
+    straight.gaps = Gaps::none;
+    CHECK(hold_print(square_shell(), trunk_and_stub(), &above, straight).patches == 0);
 
     // On the branch's side nothing hangs.
     const PrintedLayer beside =

@@ -223,19 +223,22 @@ TEST_CASE("a branch of exactly one width vanishes, a longer one or one on its fi
 TEST_CASE("branches up to 3/2 widths long that are printed from their junction are taken along where they may be") {
     using Printed = std::array<std::size_t, 3>;  // bends, gaps, tracks
     // A trunk to (10, 0) and at (5, 0) the branch with these edges.
-    const auto printed = [](std::vector<Point> branch, std::vector<EdgeOf> edges, bool may_bend = true) {
+    const auto printed = [](std::vector<Point> branch, std::vector<EdgeOf> edges, Unit rho = 20000) {
         std::vector<Point> vertices{{0, 0}, {5 * mm, 0}, {10 * mm, 0}};
         vertices.insert(vertices.end(), branch.begin(), branch.end());
         edges.insert(edges.begin(), {{0, 1}, {1, 2}});
         SupportForest forest = forest_of(vertices, edges);
-        for (auto [e, end] = boost::edges(forest); e != end; ++e) forest[*e].may_bend = may_bend;
+        Settings settings;
+        settings.support_radius = rho;
         LayerPlan plan;
-        append_support_paths(forest, Settings{}, plan);
+        append_support_paths(forest, settings, plan);
         return Printed{static_cast<std::size_t>(plan.bends), static_cast<std::size_t>(plan.gaps), plan.tracks.size()};
     };
     CHECK(printed({{5 * mm, 60000}}, {{1, 3, true}}) == Printed{1, 0, 1});
     CHECK(printed({{5 * mm, 60001}}, {{1, 3, true}}) == Printed{0, 0, 2});
-    CHECK(printed({{5 * mm, 60000}}, {{1, 3, true}}, false) == Printed{0, 0, 2});
+    // With a smaller rho a wall that goes straight on above would hang over any bend.
+    CHECK(printed({{5 * mm, 20000}}, {{1, 3, true}}, 2400) == Printed{1, 0, 1});
+    CHECK(printed({{5 * mm, 20000}}, {{1, 3, true}}, 2300) == Printed{0, 0, 2});
     CHECK(printed({{5 * mm, 50000}}, {{1, 3}}) == Printed{0, 1, 2});  // it stops short of its junction
     CHECK(printed({{5 * mm, 30000}}, {{1, 3}}) == Printed{0, 1, 1});  // it vanishes in its gap
     // A branch of two walls, one that forks, and two branches at one place.
@@ -248,10 +251,8 @@ TEST_CASE("branches up to 3/2 widths long that are printed from their junction a
 
 TEST_CASE("a branch that begins on a track is no dot, however short; what begins a width away or alone may be") {
     const auto on_track = [](Unit reach, bool first_layer) {
-        LayerPlan plan;
-        append_support_paths(
-            forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, reach}}, {{0, 1}, {1, 2}, {1, 3, first_layer}}),
-            Settings{}, plan);
+        const LayerPlan plan = plan_of(
+            forest_of({{0, 0}, {5 * mm, 0}, {10 * mm, 0}, {5 * mm, reach}}, {{0, 1}, {1, 2}, {1, 3, first_layer}}));
         REQUIRE(plan.tracks.size() == 2);
         CHECK_FALSE(plan.tracks[0].paths.front().on_track);
         return plan.tracks[1].paths.front().on_track;
@@ -331,25 +332,21 @@ TEST_CASE("by default one path runs through a root of several walls, from the ti
 }
 
 TEST_CASE("a path through a root takes a short third wall along, and does not bend past the root of a longer one") {
-    const auto tracks = [](Unit third, bool may_bend, const std::vector<EdgeOf>& more = {}) {
+    const auto tracks = [](Unit third, Gaps gaps, const std::vector<EdgeOf>& more = {}) {
         std::vector<Point> vertices{{0, 0}, {20000, 0}, {5 * mm, 0}, {-5 * mm, 0}, {0, third}};
         std::vector<EdgeOf> edges{{0, 1}, {1, 2}, {0, 3}, {0, 4, true}};
         for (const EdgeOf& e : more) vertices.push_back({20000, 30000}), edges.push_back(e);
-        SupportForest forest = forest_of(vertices, edges);
-        for (auto [e, end] = boost::edges(forest); e != end; ++e) forest[*e].may_bend = may_bend;
-        std::vector<std::vector<Point>> all;
-        for (const PlannedTrack& track : plan_of(forest, Gaps::proved).tracks) all.push_back(track.paths.at(0).points);
-        return all;
+        return planned(forest_of(vertices, edges), gaps);
     };
     const auto passes = [](const std::vector<Point>& path, Point p) {
         return std::find(path.begin(), path.end(), p) != path.end();
     };
-    CHECK(tracks(-30000, false).size() == 2);
-    CHECK(passes(tracks(-30000, false).front(), {0, 0}));
-    REQUIRE(tracks(-30000, true).size() == 1);
-    CHECK(passes(tracks(-30000, true).front(), {0, -30000}));
+    CHECK(tracks(-30000, Gaps::none).size() == 2);
+    CHECK(passes(tracks(-30000, Gaps::none).front(), {0, 0}));
+    REQUIRE(tracks(-30000, Gaps::proved).size() == 1);
+    CHECK(passes(tracks(-30000, Gaps::proved).front(), {0, -30000}));
     // Beside it, 0.2 mm away, a branch that is taken along.
-    const auto beside = tracks(-3 * mm, true, {{1, 5, true}});
+    const auto beside = tracks(-3 * mm, Gaps::proved, {{1, 5, true}});
     REQUIRE(beside.size() == 2);
     CHECK(passes(beside.front(), {20000, 30000}));
     CHECK(passes(beside.front(), {0, 0}));

@@ -193,7 +193,7 @@ TEST_CASE("a quarter of the bonus counts nowhere, in narrow places or everywhere
     }
     CHECK(grown(band, narrow) == grown(band, quarter));
     CHECK(grown(roof, narrow) == grown(roof, whole));
-    narrow.branch_bonus = everywhere.branch_bonus = quarter.branch_bonus = false;
-    CHECK(grown(band, narrow) == grown(band, quarter));
-    CHECK(grown(band, everywhere) == grown(band, quarter));
+    whole.branch_bonus = narrow.branch_bonus = everywhere.branch_bonus = false;
+    CHECK(grown(band, narrow) == grown(band, whole));
+    CHECK(grown(band, everywhere) == grown(band, whole));
 }

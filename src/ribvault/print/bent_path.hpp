@@ -30,12 +30,12 @@ struct Bend {
 };
 
 /// Bends for all of `beside` (by increasing `along`) that have tips, of a path without its first `gap`. A bend begins
-/// and ends as far from its corner as its longest branch is long, but between `least` and `most`: it goes aside at 45°
-/// or more steeply, nearer where the next branch or an end of the path is; where it would have less than half of that
-/// there is none. Beside a straight wall a bend at 45° takes less track than wall and branch, a steeper one, or one
-/// where the path turns or branches lie opposite, up to half of the branches' length more, and a travel less in any
-/// case. It may cut across a corner of the shell by less than the branches' length: S_i lies in the cavity, its bends
-/// are tracks.
+/// and ends as far from its corner as its longest branch is long, but between `least` and `most`: it goes aside at
+/// 45°, less steeply to shorter branches and more steeply to longer ones, nearer where the next branch or an end of the
+/// path is; where it would have less than half of that there is none. Beside a straight wall it takes less track than
+/// wall and branch up to a length of 4/3 `most`; where it is steeper, where the path turns or branches lie opposite, at
+/// most the branches' length more, and a travel less in any case. It may cut across a corner of the shell by less than
+/// the branches' length: S_i lies in the cavity, its bends are tracks. Precondition: least <= most, where any has tips.
 std::vector<Bend> bends_of(const PathCorners& corners, double gap, const std::vector<SideBranches>& beside,
                            double least, double most);
 

@@ -41,11 +41,8 @@ public:
           settings_(settings),
           beside_(beside),
           walls_below_gap_(walls_below_gap) {
-        for (auto [e, end] = edges(forest_); e != end; ++e) {
-            const SupportVertex& v = forest_[source(*e, forest_)];
-            if (settings.gaps == Gaps::none) forest_[*e].to_junction = true;
-            forest_[*e].may_bend = settings.gaps == Gaps::proved && !v.outside && !v.wide;
-        }
+        if (settings.gaps != Gaps::none) return;
+        for (auto [e, end] = edges(forest_); e != end; ++e) forest_[*e].to_junction = true;
     }
 
     HeldLayer run() {

@@ -53,12 +53,12 @@ struct HeldLayer {
 /// First with the gaps of Section 4.4. Where the verifier finds something of `above` that these leave unsupported, the
 /// branches nearby are printed up to their junction (settings.gaps == Gaps::proved; with Gaps::paper nothing is done
 /// and the verdict will say what the gaps cost, with Gaps::none there are none from the start). Where that is not
-/// enough (where the tracks of the shell leave a place open that B_i has, or the root of a vanished tree, which
-/// Gaps::proved does not print, held something up), patches follow: the dot nearest to the tracks that holds up all
-/// that hangs there (print/place_dot.hpp) or, where there is none and in the last rounds of mending, what hangs, one
-/// layer lower, each end moved by up to ρ towards material, so that what the patches need below them shrinks to nothing
-/// like a wall's tip does. They are printed with the tracks they touch (print/lay_patches.hpp). Patches lie inside the
-/// outline. Deterministic.
+/// enough (where the tracks of the shell leave a place open that B_i has, the root of a vanished tree, which
+/// Gaps::proved does not print, held something up, or a path that bends to a tip leaves its wall), patches follow: the
+/// dot nearest to the tracks that holds up all that hangs there (print/place_dot.hpp) or, where there is none and in
+/// the last rounds of mending, what hangs, one layer lower, each end moved by up to ρ towards material, so that what
+/// the patches need below them shrinks to nothing like a wall's tip does. They are printed with the tracks they touch
+/// (print/lay_patches.hpp). Patches lie inside the outline. Deterministic.
 ///
 /// With external supports (settings.outside()) all of `above` counts, inside the outline or not, and patches may lie
 /// outside it, where `outside` (slice/outside.hpp) lets walls stand. With a removal gap the object holds up more

@@ -1,6 +1,7 @@
 #include "ribvault/print/support_paths.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@ namespace {
 
 using Vertex = std::size_t;
 constexpr Vertex no_vertex = std::numeric_limits<Vertex>::max();
+constexpr double nearest_bend = 0.25;  ///< widths: a path leaves its wall no nearer to the corner of a short branch
 
 /// A branch to print: it leaves a junction (or the root) into one of its subtrees.
 struct Branch {
@@ -21,15 +23,25 @@ struct Branch {
     Vertex into;
 };
 
+/// How far from its corner a path may leave its wall for the tip of a long branch. A wall above that goes straight on
+/// is within r + ρ of the bend, its far rim too, up to √((r + ρ)² - r²) however long the branch is. Less than that is
+/// better (by trial): 0.7 widths. 0: with so small a ρ only patches would hold it up.
+double farthest_bend_of(const Settings& s) {
+    const double width = static_cast<double>(s.nozzle), r = width / 2,
+                 reach = r + static_cast<double>(s.support_radius);
+    const double farthest = std::min(0.7 * width, std::sqrt(reach * reach - r * r));
+    return farthest < nearest_bend * width ? 0 : farthest;
+}
+
 /// What is known of a forest's vertices once their tree hangs from its root.
 struct RootedForest {
     const SupportForest& forest;
     const Unit width;
+    const double farthest_bend;  ///< how far from its corner a path may leave its wall; 0: nowhere
     std::vector<Vertex> parent;
     std::vector<double> edge_length;  ///< of the edge to the parent
     std::vector<char> first_layer;    ///< of the edge to the parent
     std::vector<char> to_junction;    ///< the same
-    std::vector<char> may_bend;       ///< the same, where the branch is printed from its junction
     std::vector<double> reach;        ///< length of the longest way down from the vertex
     /// How much of the next branch leaving the vertex is left out: nothing where nothing was printed yet (a root), one
     /// width where a path runs through.
@@ -39,14 +51,14 @@ struct RootedForest {
     /// it.
     std::vector<std::size_t> printed_by;
 
-    RootedForest(const SupportForest& f, Unit w)
+    RootedForest(const SupportForest& f, const Settings& settings)
         : forest(f),
-          width(w),
+          width(settings.nozzle),
+          farthest_bend(settings.gaps == Gaps::proved ? farthest_bend_of(settings) : 0),
           parent(num_vertices(f), no_vertex),
           edge_length(num_vertices(f), 0),
           first_layer(num_vertices(f), 0),
           to_junction(num_vertices(f), 0),
-          may_bend(num_vertices(f), 0),
           reach(num_vertices(f), 0),
           gap(num_vertices(f), 0),
           seen(num_vertices(f), 0),
@@ -79,7 +91,6 @@ void hang_from_root(RootedForest& f, Vertex root, int layer) {
             f.edge_length[w] = length(f.at(w) - f.at(v));
             f.first_layer[w] = f.forest[*e].first_layer;
             f.to_junction[w] = f.forest[*e].to_junction;
-            f.may_bend[w] = f.forest[*e].may_bend && (f.first_layer[w] || f.to_junction[w]);
             order.push_back(w);
         }
     }
@@ -119,15 +130,20 @@ Vertex tip_of(const RootedForest& f, Vertex v, Vertex w) {
     return out_degree(w, f.forest) == 1 ? w : no_vertex;
 }
 
+/// May the path that leaves the branch from v into w aside take it along?
+bool may_be_taken_along(const RootedForest& f, Vertex v, Vertex w) {
+    return f.farthest_bend > 0 && (f.first_layer[w] || f.to_junction[w]) && !f.forest[v].outside && !f.forest[v].wide &&
+           2 * (f.edge_length[w] + f.reach[w]) <= 3 * static_cast<double>(f.width);
+}
+
 /// What leaves a path for `subtrees` at its vertex v, `along` from its beginning.
 SideBranches side_branches(const RootedForest& f, Vertex v, double along, std::span<const Vertex> subtrees) {
     SideBranches beside{along, {}, 0};
     for (const Vertex w : subtrees) {
-        const double whole = f.edge_length[w] + f.reach[w];
-        const Vertex tip = f.may_bend[w] && 2 * whole <= 3 * f.width ? tip_of(f, v, w) : no_vertex;
+        const Vertex tip = may_be_taken_along(f, v, w) ? tip_of(f, v, w) : no_vertex;
         if (tip == no_vertex) return {along, {}, 0};
         beside.tips.push_back(f.at(tip));
-        beside.longest = std::max(beside.longest, whole);
+        beside.longest = std::max(beside.longest, f.edge_length[w] + f.reach[w]);
     }
     return beside;
 }
@@ -152,7 +168,6 @@ void set_gaps_along(RootedForest& f, const std::vector<Vertex>& vertices, double
 /// vertices.
 std::vector<Bend> take_along(const RootedForest& f, const std::vector<Vertex>& vertices, const PathCorners& corners,
                              double gap, std::vector<std::vector<Vertex>>& aside) {
-    const double width = static_cast<double>(f.width);
     std::vector<SideBranches> beside;
     std::vector<std::size_t> at;
     for (std::size_t k = 1; k < vertices.size(); ++k) {
@@ -160,7 +175,8 @@ std::vector<Bend> take_along(const RootedForest& f, const std::vector<Vertex>& v
         beside.push_back(side_branches(f, vertices[k], corners.along[k], aside[k]));
         at.push_back(k);
     }
-    std::vector<Bend> bends = bends_of(corners, gap, beside, width / 4, 0.7 * width);
+    std::vector<Bend> bends =
+        bends_of(corners, gap, beside, nearest_bend * static_cast<double>(f.width), f.farthest_bend);
     for (const Bend& bend : bends) aside[at[bend.branches]].clear();
     return bends;
 }
@@ -291,7 +307,7 @@ private:
 }  // namespace
 
 void append_support_paths(const SupportForest& forest, const Settings& settings, LayerPlan& plan) {
-    RootedForest f(forest, settings.nozzle);
+    RootedForest f(forest, settings);
     for (Vertex v = 0; v < num_vertices(forest); ++v) {
         if (f.seen[v] || !forest[v].root) continue;
         hang_from_root(f, v, plan.layer);

@@ -52,7 +52,7 @@ struct LayerReport {
     PrintVerdict print;      ///< the same for what is extruded
     int closed_gaps = 0;  ///< branches printed up to their junction because a gap would have let something above hang
     int bends = 0;        ///< places where a support's path takes short branches along (print/bent_path.hpp)
-    int patches = 0;         ///< short tracks that hold what the shell's own tracks leave open
+    int patches = 0;      ///< short tracks under what open places, vanished roots and bends let hang
     bool patch_in_gap = false;  ///< an external support is nearer than the removal gap to a patch of the object, here
                                 ///< or on a layer of the gap above
     double patch_length_mm = 0;

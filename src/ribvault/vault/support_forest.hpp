@@ -31,9 +31,6 @@ struct SupportEdge {
     /// The branch that starts with this edge is printed up to its junction although it continues below
     /// (print/hold_print.hpp).
     bool to_junction = false;
-    /// Where the branch that starts with this edge is short, the path through its junction may go by its tip, and it
-    /// has no track of its own (print/bent_path.hpp).
-    bool may_bend = false;
 };
 
 /// A forest: every connected component is a tree and has at least one root. Vertex degree is the valence of equation
