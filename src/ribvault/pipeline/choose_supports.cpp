@@ -11,8 +11,8 @@
 namespace ribvault {
 namespace {
 
-/// How much track a tip takes beyond its wall where gaps are closed as the proof asks for it, in widths of a track:
-/// what closes them, and patches. With this the way that extrudes least is found on each of eleven models.
+/// How much track a tip takes beyond its wall, in widths of a track: what closes gaps, and patches. With this the way
+/// that extrudes least is found on each of eleven models.
 constexpr double cost_of_tip = 1.25;
 constexpr std::size_t most_kept = 8;  ///< sweeps on disk at a time: about as much as their layers' G-code each
 
@@ -93,8 +93,7 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
     end_if(stop);
 
     for (const Sweep& s : sweeps) {
-        const double of_tip = settings.gaps == Gaps::proved ? cost_of_tip * static_cast<double>(settings.nozzle) : 0;
-        const double cost = s.length + of_tip * static_cast<double>(s.tips);
+        const double cost = s.length + cost_of_tip * static_cast<double>(settings.nozzle) * static_cast<double>(s.tips);
         chosen.candidates.push_back(
             {s.settings.quarter_bonus, s.settings.seed, s.length / units_per_mm, s.tips, cost / units_per_mm});
     }
