@@ -12,7 +12,7 @@ namespace ribvault {
 namespace {
 
 /// How much track a tip takes beyond its wall, in widths of a track: what closes gaps, and patches. With this the way
-/// that extrudes least is found on each of eleven models.
+/// that extrudes least is found on each of fourteen models (experiments/README.md).
 constexpr double cost_of_tip = 1.25;
 constexpr std::size_t most_kept = 8;  ///< sweeps on disk at a time: about as much as their layers' G-code each
 
