@@ -237,8 +237,8 @@ TEST_CASE("branches up to 3/2 widths long that are printed from their junction a
     CHECK(printed({{5 * mm, 60000}}, {{1, 3, true}}) == Printed{1, 0, 1});
     CHECK(printed({{5 * mm, 60001}}, {{1, 3, true}}) == Printed{0, 0, 2});
     // With a smaller rho a wall that goes straight on above would hang over any bend.
-    CHECK(printed({{5 * mm, 20000}}, {{1, 3, true}}, 2400) == Printed{1, 0, 1});
-    CHECK(printed({{5 * mm, 20000}}, {{1, 3, true}}, 2300) == Printed{0, 0, 2});
+    CHECK(printed({{5 * mm, 20000}}, {{1, 3, true}}, 14500) == Printed{1, 0, 1});
+    CHECK(printed({{5 * mm, 20000}}, {{1, 3, true}}, 14400) == Printed{0, 0, 2});
     CHECK(printed({{5 * mm, 50000}}, {{1, 3}}) == Printed{0, 1, 2});  // it stops short of its junction
     CHECK(printed({{5 * mm, 30000}}, {{1, 3}}) == Printed{0, 1, 1});  // it vanishes in its gap
     // A branch of two walls, one that forks, and two branches at one place.

@@ -23,14 +23,14 @@ struct Branch {
     Vertex into;
 };
 
-/// How far from its corner a path may leave its wall for the tip of a long branch. A wall above that goes straight on
-/// is within r + ρ of the bend, its far rim too, up to √((r + ρ)² - r²) however long the branch is. Less than that is
-/// better (by trial): 0.7 widths. 0: with so small a ρ only patches would hold it up.
+/// How far from its corner a path may leave its wall for the tip of a long branch: 0.7 widths, by trial. A wall above
+/// that goes straight on, its far rim too, is within r + ρ of the bend if that is at most √((r + ρ)² - r²), however
+/// long the branch is. 0: nowhere, as with a smaller ρ patches would take more than the branches' own tracks.
 double farthest_bend_of(const Settings& s) {
     const double width = static_cast<double>(s.nozzle), r = width / 2,
                  reach = r + static_cast<double>(s.support_radius);
-    const double farthest = std::min(0.7 * width, std::sqrt(reach * reach - r * r));
-    return farthest < nearest_bend * width ? 0 : farthest;
+    const double farthest = 0.7 * width;
+    return farthest * farthest > reach * reach - r * r ? 0 : farthest;
 }
 
 /// What is known of a forest's vertices once their tree hangs from its root.
