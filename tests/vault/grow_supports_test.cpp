@@ -179,8 +179,10 @@ TEST_CASE("a quarter of the bonus counts nowhere, in narrow places or everywhere
             all.push_back({forest[source(*e, forest)].at, forest[target(*e, forest)].at});
         return all;
     };
-    Settings whole, quarter, narrow, everywhere;
-    quarter.branch_bonus_length /= 4;
+    Settings whole;
+    whole.branch_bonus_length = 160000;  // so that a third would grow other walls than a quarter
+    Settings quarter = whole, third = whole, narrow = whole, everywhere = whole;
+    quarter.branch_bonus_length /= 4, third.branch_bonus_length /= 3;
     narrow.quarter_bonus = QuarterBonus::narrow, everywhere.quarter_bonus = QuarterBonus::everywhere;
     // On either side of twice 3/4 d = 0.6 mm, far enough from the shell and long enough for many walls.
     const Region band{rectangle(-900000, 500000, 900000, 559000)}, roof{rectangle(-900000, 500000, 900000, 561500)};
@@ -189,6 +191,7 @@ TEST_CASE("a quarter of the bonus counts nowhere, in narrow places or everywhere
     };
     for (const Region& region : {band, roof}) {
         CHECK(grown(region, whole) != grown(region, quarter));
+        CHECK(grown(region, third) != grown(region, quarter));
         CHECK(grown(region, everywhere) == grown(region, quarter));
     }
     CHECK(grown(band, narrow) == grown(band, quarter));
