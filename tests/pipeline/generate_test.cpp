@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <set>
 
@@ -297,6 +299,23 @@ TEST_CASE("the paper's models are proved, their shells as an independent library
         }
 }
 
+/// Ends of walls that are no root, in a layers file.
+std::size_t tips_in(const fs::path& layers) {
+    std::ifstream in(layers);
+    std::string line;
+    std::getline(in, line);
+    std::size_t tips = 0;
+    while (std::getline(in, line)) {
+        const auto layer = nlohmann::json::parse(line);
+        std::map<std::size_t, int> walls;
+        for (const auto& edge : layer.at("edges"))
+            for (const std::size_t v : edge) ++walls[v];
+        for (const std::size_t root : layer.at("roots")) walls.erase(root);
+        for (const auto& [v, count] : walls) tips += count == 1;
+    }
+    return tips;
+}
+
 TEST_CASE("of the ways to grow supports the run uses the one that costs least") {
     const Folder folder;
     std::mt19937_64 random(5);
@@ -307,6 +326,7 @@ TEST_CASE("of the ways to grow supports the run uses the one that costs least") 
     const auto run = [&](QuarterBonus bonus, std::uint64_t seed) {
         Job one = job;
         one.settings.quarter_bonus = bonus, one.settings.seed = seed;
+        one.layers = folder.path / "alone.jsonl";
         const RunReport report = generate(one);
         CHECK(report.candidates.empty());
         return report;
@@ -327,6 +347,7 @@ TEST_CASE("of the ways to grow supports the run uses the one that costs least") 
     for (const Candidate& c : chosen.candidates) {
         ways.emplace(c.quarter_bonus, c.seed);
         CHECK(c.length_mm == Approx(run(c.quarter_bonus, c.seed).totals.support_length_mm));
+        CHECK(c.tips == tips_in(folder.path / "alone.jsonl"));
         CHECK(c.tips > 0);
         CHECK(c.cost_mm == Approx(c.length_mm + 0.5 * static_cast<double>(c.tips)));
         CHECK(c.cost_mm >= chosen.candidates.front().cost_mm);
@@ -334,6 +355,9 @@ TEST_CASE("of the ways to grow supports the run uses the one that costs least") 
     }
     CHECK(lengths.size() > 2);
     CHECK(ways.size() == 6);
+    Job none = open;
+    none.settings.branch_bonus_length = 0, none.settings.tries = 1;
+    CHECK(generate(none).candidates.empty());  // all three would be the same
     CHECK(chosen.settings.seed == chosen.candidates.front().seed);
     CHECK(chosen.settings.quarter_bonus == chosen.candidates.front().quarter_bonus);
     CHECK(chosen.totals.support_length_mm == Approx(chosen.candidates.front().length_mm));

@@ -14,7 +14,7 @@ namespace {
 /// How much track a tip takes beyond its wall, in widths of a track: what closes gaps, and patches. With this the way
 /// that extrudes least is found on each of fourteen models (experiments/README.md).
 constexpr double cost_of_tip = 1.25;
-constexpr std::size_t most_kept = 8;  ///< sweeps on disk at a time: about as much as their layers' G-code each
+constexpr std::size_t most_kept = 12;  ///< sweeps on disk at a time: about as much as their layers' G-code each
 
 struct Sweep {
     Settings settings;
@@ -57,7 +57,7 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
     namespace tbb = oneapi::tbb;
     std::vector<Sweep> sweeps;
     std::vector<QuarterBonus> bonuses{settings.quarter_bonus};
-    if (settings.choose_bonus && settings.branch_bonus)
+    if (settings.choose_bonus && settings.branch_bonus && settings.branch_bonus_length > 0)
         bonuses = {QuarterBonus::narrow, QuarterBonus::everywhere, QuarterBonus::nowhere};
     for (int k = 0; k < settings.tries; ++k)
         for (const QuarterBonus bonus : bonuses) {

@@ -22,7 +22,7 @@ struct LayerShapes {
     /// hold up. Of a wall that is not held up along its whole length it is the whole track: more than needed, never
     /// less.
     Region unsupported;
-    std::vector<Segment> patches;        ///< short tracks that hold what the shell's own tracks leave open
+    std::vector<Segment> patches;  ///< as LayerReport::patches
 };
 
 /// Rounds to 1 µm. `unsupported` may overlap itself; the result does not.
