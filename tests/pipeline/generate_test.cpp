@@ -323,8 +323,8 @@ TEST_CASE("of the ways to grow supports the run uses the one that costs least") 
     job.model = folder.file("solid.off", random_solid(random));
     job.threads = 2;
     job.settings.branch_bonus_length = 160000;
-    const auto run = [&](QuarterBonus bonus, std::uint64_t seed) {
-        Job one = job;
+    const auto run = [&](const Job& like, QuarterBonus bonus, std::uint64_t seed) {
+        Job one = like;
         one.settings.quarter_bonus = bonus, one.settings.seed = seed;
         one.layers = folder.path / "alone.jsonl";
         const RunReport report = generate(one);
@@ -346,7 +346,7 @@ TEST_CASE("of the ways to grow supports the run uses the one that costs least") 
     std::set<std::pair<QuarterBonus, std::uint64_t>> ways;
     for (const Candidate& c : chosen.candidates) {
         ways.emplace(c.quarter_bonus, c.seed);
-        CHECK(c.length_mm == Approx(run(c.quarter_bonus, c.seed).totals.support_length_mm));
+        CHECK(c.length_mm == Approx(run(job, c.quarter_bonus, c.seed).totals.support_length_mm));
         CHECK(c.tips == tips_in(folder.path / "alone.jsonl"));
         CHECK(c.tips > 0);
         CHECK(c.cost_mm == Approx(c.length_mm + 0.5 * static_cast<double>(c.tips)));
@@ -355,6 +355,20 @@ TEST_CASE("of the ways to grow supports the run uses the one that costs least") 
     }
     CHECK(lengths.size() > 2);
     CHECK(ways.size() == 6);
+    // Under one wide roof the bonus counts a quarter in no narrow place: what is swept once counts for both ways.
+    Job flat = job;
+    flat.model = folder.file("flat.off", revolution({{4, 0}, {4, 6}}, 4, 0));
+    flat.settings.choose_bonus = true;
+    const RunReport roof = generate(flat);
+    flat.settings.choose_bonus = false;
+    REQUIRE(roof.candidates.size() == 3);
+    std::map<QuarterBonus, double> costs;
+    for (const Candidate& c : roof.candidates) {
+        CHECK(c.length_mm == Approx(run(flat, c.quarter_bonus, c.seed).totals.support_length_mm));
+        costs[c.quarter_bonus] = c.cost_mm;
+    }
+    CHECK(costs[QuarterBonus::narrow] == costs[QuarterBonus::nowhere]);
+    CHECK(costs[QuarterBonus::narrow] != costs[QuarterBonus::everywhere]);
     Job none = open;
     none.settings.branch_bonus_length = 0, none.settings.tries = 1;
     CHECK(generate(none).candidates.empty());  // all three would be the same

@@ -15,7 +15,7 @@ const CavityBoundary room = prepare_boundary({rectangle(-1000000, 0, 1000000, 20
 
 /// One candidate alone: the region is a few units around p.
 SupportForest grown_at(Point p, const SupportForest& forest, const Settings& settings) {
-    return grow_supports(forest, {rectangle(p.x - 10, p.y - 10, p.x + 10, p.y + 10)}, room, 1, settings);
+    return grow_supports(forest, {rectangle(p.x - 10, p.y - 10, p.x + 10, p.y + 10)}, room, 1, settings).forest;
 }
 
 /// A trunk with a junction p[1] of the given valence at (0, 400000), and far from it the inner part of a wall, p[2], at
@@ -67,7 +67,7 @@ TEST_CASE("a coarse lattice of candidates and a small ρ cover everything as wel
         settings.support_radius = 7000;
         settings.branch_bonus = k % 2;
         const Cavity cavity = make_cavity(0, scene.cavity.region, settings);
-        const SupportForest forest = grow_supports({}, cavity.deep, scene.boundary, 3, settings);
+        const SupportForest forest = grow_supports({}, cavity.deep, scene.boundary, 3, settings).forest;
         Point bad;
         const bool covered = within(cavity.deep, centre_lines(forest), 27000, bad);
         INFO("scene " << k << ", not covered about " << text(bad));
@@ -79,9 +79,9 @@ TEST_CASE("a coarse lattice of candidates and a small ρ cover everything as wel
 
 TEST_CASE("nothing is added where nothing is unsupported or walls already reach") {
     const SupportForest wall = forest_of({{{0, 0}, {0, 500000}}, {0}, {{0, 1}}});
-    CHECK(num_edges(grow_supports(wall, {}, room, 1, Settings{})) == 1);
-    CHECK(num_edges(grow_supports(wall, {rectangle(-39000, 100000, 39000, 400000)}, room, 1, Settings{})) == 1);
-    CHECK(num_edges(grow_supports(wall, {rectangle(-39000, 100000, 41000, 400000)}, room, 1, Settings{})) > 1);
+    CHECK(num_edges(grow_supports(wall, {}, room, 1, Settings{}).forest) == 1);
+    CHECK(num_edges(grow_supports(wall, {rectangle(-39000, 100000, 39000, 400000)}, room, 1, Settings{}).forest) == 1);
+    CHECK(num_edges(grow_supports(wall, {rectangle(-39000, 100000, 41000, 400000)}, room, 1, Settings{}).forest) > 1);
 }
 
 TEST_CASE("candidates are taken in order of their distance to the shell") {
@@ -90,7 +90,8 @@ TEST_CASE("candidates are taken in order of their distance to the shell") {
     // Slanted sides, so that the feet of walls on other walls do not lie on the candidates' lattice.
     const CavityBoundary slanted =
         prepare_boundary({{{-1000000, 0}, {1000000, 137000}, {900000, 2100000}, {-1100000, 1950000}}});
-    const SupportForest forest = grow_supports({}, {rectangle(-900000, 200000, 800000, 1850000)}, slanted, 5, settings);
+    const SupportForest forest =
+        grow_supports({}, {rectangle(-900000, 200000, 800000, 1850000)}, slanted, 5, settings).forest;
     std::vector<SquaredDistance> distances;
     for (auto [v, end] = vertices(forest); v != end; ++v) {
         const Point at = forest[*v].at;
@@ -161,8 +162,8 @@ TEST_CASE("a junction behind another wall is not reached through it") {
 TEST_CASE("ties are broken by the seed: the same seed gives the same bytes, another one other supports") {
     const auto grown = [](std::uint64_t seed) {
         std::string bytes;
-        for (const Segment& s :
-             centre_lines(grow_supports({}, {rectangle(-900000, 20000, 900000, 1980000)}, room, seed, Settings{})))
+        for (const Segment& s : centre_lines(
+                 grow_supports({}, {rectangle(-900000, 20000, 900000, 1980000)}, room, seed, Settings{}).forest))
             bytes += text(s);
         return bytes;
     };
@@ -187,7 +188,7 @@ TEST_CASE("a quarter of the bonus counts nowhere, in narrow places or everywhere
     // On either side of twice 3/4 d = 0.6 mm, far enough from the shell and long enough for many walls.
     const Region band{rectangle(-900000, 500000, 900000, 559000)}, roof{rectangle(-900000, 500000, 900000, 561500)};
     const auto grown = [&](const Region& region, const Settings& settings) {
-        return walls(grow_supports({}, region, room, 1, settings));
+        return walls(grow_supports({}, region, room, 1, settings).forest);
     };
     for (const Region& region : {band, roof}) {
         CHECK(grown(region, whole) != grown(region, quarter));
@@ -196,6 +197,18 @@ TEST_CASE("a quarter of the bonus counts nowhere, in narrow places or everywhere
     }
     CHECK(grown(band, narrow) == grown(band, quarter));
     CHECK(grown(roof, narrow) == grown(roof, whole));
+    // Which of the two counted for a wall.
+    const auto used = [](const Region& region, const Settings& settings) {
+        const GrownSupports supports = grow_supports({}, region, room, 1, settings);
+        return std::pair(supports.full_bonus, supports.quarter_bonus);
+    };
+    const Region both{band[0], rectangle(-900000, 1000000, 900000, 1061500)};
+    CHECK(used(both, whole) == std::pair(true, false));
+    CHECK(used(both, everywhere) == std::pair(false, true));
+    CHECK(used(both, narrow) == std::pair(true, true));
+    CHECK(used(band, narrow) == std::pair(false, true));
+    CHECK(used(roof, narrow) == std::pair(true, false));
+    CHECK(used({}, whole) == std::pair(false, false));
     whole.branch_bonus = narrow.branch_bonus = everywhere.branch_bonus = false;
     CHECK(grown(band, narrow) == grown(band, whole));
     CHECK(grown(band, everywhere) == grown(band, whole));

@@ -19,7 +19,7 @@ struct GrownScene {
         : shapes(g, 2, 2, size, drift),
           cavity(make_cavity(0, shapes.at(0), settings)),
           boundary(prepare_boundary(cavity.region)) {
-        if (!cavity.region.empty()) forest = grow_supports({}, cavity.deep, boundary, g(), settings);
+        if (!cavity.region.empty()) forest = grow_supports({}, cavity.deep, boundary, g(), settings).forest;
     }
 };
 

@@ -18,7 +18,7 @@ constexpr std::size_t most_kept = 12;  ///< sweeps on disk at a time: about as m
 
 struct Sweep {
     Settings settings;
-    LayerSupports supports;
+    std::shared_ptr<LayerSupports> supports;  ///< of the last layer; shared by sweeps that came to the same
     double length = 0;  ///< lattice units
     std::size_t tips = 0;
 };
@@ -30,13 +30,48 @@ std::size_t tips_of(const SupportForest& forest) {
         std::count_if(begin, end, [&](std::size_t v) { return out_degree(v, forest) == 1 && !forest[v].root; }));
 }
 
-/// The next layer of a sweep. Returns the one before it, which is complete now, if it is to be kept.
-std::string step(Sweep& sweep, const Token& token, bool keep) {
-    LayerSupports next = next_supports(sweep.supports.forest, token, sweep.settings);
-    std::string done = keep ? packed_supports(sweep.supports) : std::string();
-    sweep.supports = std::move(next);
-    sweep.length += length(sweep.supports.forest);
-    sweep.tips += tips_of(sweep.supports.forest);
+/// The sweeps that have the same supports on the last layer, and the same ties.
+std::vector<std::vector<std::size_t>> alike(const std::vector<Sweep>& sweeps) {
+    std::vector<std::vector<std::size_t>> groups;
+    for (std::size_t k = 0; k < sweeps.size(); ++k) {
+        const auto same = [&](const std::vector<std::size_t>& group) {
+            const Sweep& other = sweeps[group.front()];
+            return other.supports == sweeps[k].supports && other.settings.seed == sweeps[k].settings.seed;
+        };
+        const auto group = std::find_if(groups.begin(), groups.end(), same);
+        (group == groups.end() ? groups.emplace_back() : *group).push_back(k);
+    }
+    return groups;
+}
+
+/// `next` is what one sweep made of supports that another one has too: whether the other makes the same of them.
+bool same_next(const LayerSupports& next, QuarterBonus other) {
+    if (other == QuarterBonus::narrow) return !next.full_bonus && !next.quarter_bonus;
+    return other == QuarterBonus::nowhere ? !next.quarter_bonus : !next.full_bonus;
+}
+
+/// The next layer of sweeps that are alike, made once for all that come to the same. Returns for each the layer before
+/// it, which is complete now, if it is to be kept.
+std::vector<std::string> step(const std::vector<Sweep*>& group, const Token& token, bool keep) {
+    std::vector<std::string> done(group.size());
+    std::vector<char> advanced(group.size(), 0);
+    const std::shared_ptr<const LayerSupports> above = group.front()->supports;
+    for (std::size_t k = 0; k < group.size(); ++k) {
+        if (advanced[k]) continue;
+        LayerSupports complete = *above;  // with marks of where it ends, which is not the same for all
+        const auto next = std::make_shared<LayerSupports>(next_supports(complete.forest, token, group[k]->settings));
+        const std::string packed = keep ? packed_supports(complete) : std::string();
+        const double longer = length(next->forest);
+        const std::size_t tips = tips_of(next->forest);
+        for (std::size_t other = k; other < group.size(); ++other) {
+            Sweep& sweep = *group[other];
+            if (advanced[other] || (other != k && !same_next(*next, sweep.settings.quarter_bonus))) continue;
+            advanced[other] = 1;
+            sweep.supports = next;
+            sweep.length += longer, sweep.tips += tips;
+            done[other] = packed;
+        }
+    }
     return done;
 }
 
@@ -59,9 +94,10 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
     std::vector<QuarterBonus> bonuses{settings.quarter_bonus};
     if (settings.choose_bonus && settings.branch_bonus && settings.branch_bonus_length > 0)
         bonuses = {QuarterBonus::narrow, QuarterBonus::everywhere, QuarterBonus::nowhere};
+    const auto top = std::make_shared<LayerSupports>();
     for (int k = 0; k < settings.tries; ++k)
         for (const QuarterBonus bonus : bonuses) {
-            sweeps.push_back({settings, {}});
+            sweeps.push_back({settings, top});
             sweeps.back().settings.quarter_bonus = bonus;
             sweeps.back().settings.seed = settings.seed + static_cast<std::uint64_t>(k);
         }
@@ -80,8 +116,13 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
             const bool keep = chosen.supports && done > 0;
             // Whoever waits here takes on no other layer meanwhile: this stage is what the rest waits for.
             tbb::this_task_arena::isolate([&] {
-                tbb::parallel_for(std::size_t{0}, sweeps.size(),
-                                  [&](std::size_t k) { finished[k] = step(sweeps[k], *token, keep); });
+                const std::vector<std::vector<std::size_t>> groups = alike(sweeps);
+                tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+                    std::vector<Sweep*> group;
+                    for (const std::size_t k : groups[g]) group.push_back(&sweeps[k]);
+                    const std::vector<std::string> packed = step(group, *token, keep);
+                    for (std::size_t k = 0; k < group.size(); ++k) finished[groups[g][k]] = packed[k];
+                });
             });
             if (keep) while_there_is_room(chosen.supports, [&] { chosen.supports->add(finished); });
             progress(++done, slicer.layer_count());
@@ -104,7 +145,7 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
     if (chosen.supports)
         while_there_is_room(chosen.supports, [&] {
             // Under layer 0 nothing continues.
-            for (std::size_t k = 0; k < sweeps.size(); ++k) finished[k] = packed_supports(sweeps[k].supports);
+            for (std::size_t k = 0; k < sweeps.size(); ++k) finished[k] = packed_supports(*sweeps[k].supports);
             chosen.supports->add(finished);
             chosen.supports->finish();
         });

@@ -21,6 +21,8 @@ void add_outside(LayerSupports& supports, SupportForest& above, const Cavity& ou
     boost::copy_graph(more.forest, supports.forest);
     supports.unsupported.insert(supports.unsupported.end(), more.unsupported.begin(), more.unsupported.end());
     supports.blocked += more.blocked;
+    supports.full_bonus = supports.full_bonus || more.full_bonus;
+    supports.quarter_bonus = supports.quarter_bonus || more.quarter_bonus;
 }
 
 }  // namespace

@@ -46,7 +46,10 @@ using Queue = std::priority_queue<Candidate, std::vector<Candidate>, Later>;
 std::vector<Segment> wide_pieces(const Region& region, Unit nozzle) {
     std::vector<Segment> wide;
     for (const Region& piece : connected_pieces(region)) {
-        if (offset(piece, -0.75 * static_cast<double>(nozzle)).empty()) continue;
+        const Box box = bounding_box(piece);
+        if (2 * std::min(box.hi.x - box.lo.x, box.hi.y - box.lo.y) < 3 * nozzle ||
+            offset(piece, -0.75 * static_cast<double>(nozzle)).empty())
+            continue;
         const std::vector<Segment> border = edges_of(piece);
         wide.insert(wide.end(), border.begin(), border.end());
     }
@@ -68,7 +71,7 @@ public:
             wide_ = PointLocation(wide_pieces(unsupported, settings.nozzle), units_per_mm);
     }
 
-    SupportForest run() {
+    GrownSupports run() {
         add_pixels();
         std::vector<std::size_t> open = all_cells();
         // What no wall may come near to (removal gap) stays open: a round that adds nothing is the last.
@@ -77,15 +80,18 @@ public:
             open = add_between(open);
         }
         if (settings_.trim) trim_walls(supports_, unsupported_, settings_);
-        return supports_.take();
+        return {supports_.take(), full_bonus_, quarter_bonus_};
     }
 
 private:
-    /// Equation (4)'s bonus for a wall to p.
-    Unit bonus(Point p) const {
+    void add_wall(Point p) { supports_.add_wall(p, bonus(p)); }
+
+    /// Equation (4)'s bonus for a wall to p. Notes which one it is.
+    Unit bonus(Point p) {
         if (!settings_.branch_bonus) return 0;
         const bool quarter = settings_.quarter_bonus == QuarterBonus::everywhere ||
                              (settings_.quarter_bonus == QuarterBonus::narrow && wide_.locate(p) == Side::outside);
+        (quarter ? quarter_bonus_ : full_bonus_) = true;
         return quarter ? settings_.branch_bonus_length / 4 : settings_.branch_bonus_length;
     }
 
@@ -107,7 +113,7 @@ private:
             const Candidate candidate = queue.top();
             queue.pop();
             if (candidate.cell < 0) {
-                if (!supports_.covers(candidate.at, radius_)) supports_.add_wall(candidate.at, bonus(candidate.at));
+                if (!supports_.covers(candidate.at, radius_)) add_wall(candidate.at);
                 continue;
             }
             const UnsupportedCells::Cell& cell = cells[static_cast<std::size_t>(candidate.cell)];
@@ -149,16 +155,14 @@ private:
         std::vector<std::size_t> again;
         for (const std::size_t k : open) {
             const std::size_t before = queue.size();
-            const Box& box = unsupported_.cells()[k].box;
-            unsupported_.find_uncovered(box, box, supports_, [&](Point p) {
+            unsupported_.find_uncovered(k, unsupported_.cells()[k].box, supports_, [&](Point p) {
                 queue.push(point_candidate(p));
                 return false;
             });
             if (queue.size() != before) again.push_back(k);
         }
         for (; !queue.empty(); queue.pop())
-            if (!supports_.covers(queue.top().at, radius_ - slack_))
-                supports_.add_wall(queue.top().at, bonus(queue.top().at));
+            if (!supports_.covers(queue.top().at, radius_ - slack_)) add_wall(queue.top().at);
         return again;
     }
 
@@ -169,13 +173,14 @@ private:
     UnsupportedCells unsupported_;
     PointLocation wide_;  ///< where the bonus counts in full, with QuarterBonus::narrow
     GrowingSupports supports_;
+    bool full_bonus_ = false, quarter_bonus_ = false;  ///< used by a wall
 };
 
 }  // namespace
 
-SupportForest grow_supports(SupportForest propagated, const Region& unsupported, const CavityBoundary& boundary,
+GrownSupports grow_supports(SupportForest propagated, const Region& unsupported, const CavityBoundary& boundary,
                             std::uint64_t layer_seed, const Settings& settings) {
-    if (unsupported.empty()) return propagated;
+    if (unsupported.empty()) return {std::move(propagated)};
     return Grower(std::move(propagated), unsupported, boundary, layer_seed, settings).run();
 }
 

@@ -37,7 +37,7 @@ GrowingSupports::GrowingSupports(SupportForest forest, const Box& cavity_box, co
 }
 
 void GrowingSupports::enter(std::size_t a, std::size_t b) {
-    walls_.push_back({a, b, true});
+    walls_.push_back({a, b, {forest_[a].at, forest_[b].at}, true});
     const auto id = static_cast<std::uint32_t>(walls_.size() - 1);
     grid_.insert(id, segment(id));
 }
@@ -54,7 +54,7 @@ bool GrowingSupports::covers(Point p, double radius) const {
     const double r2 = radius * radius;
     return grid_.any_near(p, [&](std::uint32_t w) {
         if (!walls_[w].alive) return false;
-        const Segment s = segment(w);
+        const Segment& s = segment(w);
         const double ux = static_cast<double>(s.b.x - s.a.x), uy = static_cast<double>(s.b.y - s.a.y);
         const double vx = static_cast<double>(p.x - s.a.x), vy = static_cast<double>(p.y - s.a.y);
         const double along = ux * vx + uy * vy, l2 = ux * ux + uy * uy;
@@ -73,7 +73,7 @@ bool GrowingSupports::walls_bar(const Segment& way, Skip&& skip) const {
     bool barred = false;
     grid_.visit(bounding_box(way), [&](std::uint32_t w) {
         if (barred || !walls_[w].alive || skip(w)) return;
-        const Segment s = segment(w);
+        const Segment& s = segment(w);
         barred = s.a != way.b && s.b != way.b && segments_touch(way, s);
     });
     return barred;
@@ -264,18 +264,22 @@ void GrowingSupports::add_wall(Point at, Unit bonus) {
                 if (compare_biased(d, bonus, plain_distance, 0) < 0) junctions.push_back({d, v});
             }
         });
-    std::sort(junctions.begin(), junctions.end(), [](const auto& a, const auto& b) {
+    // The nearest ones first; one of them mostly has a free way, so they are not sorted.
+    const auto farther = [](const auto& a, const auto& b) {
         const int order = compare(a.first, b.first);
-        return order != 0 ? order < 0 : a.second < b.second;
-    });
-    junctions.erase(std::unique(junctions.begin(), junctions.end(),
-                                [](const auto& a, const auto& b) { return a.second == b.second; }),
-                    junctions.end());
-    for (const auto& [distance, v] : junctions)
-        if (free_way(p, v)) {
+        return order != 0 ? order > 0 : a.second > b.second;
+    };
+    std::make_heap(junctions.begin(), junctions.end(), farther);
+    std::optional<std::size_t> before;  // each comes once a wall
+    for (; !junctions.empty(); junctions.pop_back()) {
+        const std::size_t v = junctions.front().second;
+        if (v != before && free_way(p, v)) {
             add_tip(p, v);
             return;
         }
+        before = v;
+        std::pop_heap(junctions.begin(), junctions.end(), farther);
+    }
     std::size_t to;
     if (wall) {
         to = split(*wall, p);

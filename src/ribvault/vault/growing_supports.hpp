@@ -49,8 +49,9 @@ public:
     }
     /// Puts it back, shortened to a share of `whole`.
     void restore(const NewWall& wall, const Segment& whole, double share) {
-        forest_[wall.vertex].at = part_way(whole.a, whole.b, share);
-        walls_[wall.index].alive = true;
+        Wall& restored = walls_[wall.index];
+        restored.place.a = forest_[wall.vertex].at = part_way(whole.a, whole.b, share);
+        restored.alive = true;
         add_edge(wall.vertex, wall.joint, forest_);
     }
 
@@ -61,9 +62,10 @@ public:
 private:
     struct Wall {
         std::size_t a, b;
+        Segment place;  ///< from a to b
         bool alive;
     };
-    Segment segment(std::uint32_t w) const { return {forest_[walls_[w].a].at, forest_[walls_[w].b].at}; }
+    const Segment& segment(std::uint32_t w) const { return walls_[w].place; }
     void enter(std::size_t a, std::size_t b);
     void connect(std::size_t a, std::size_t b);
     void add_tip(Point p, std::size_t joint);

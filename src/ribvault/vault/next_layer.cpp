@@ -107,7 +107,9 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         if (cavity.walls) result.unsupported = within_reach(result.unsupported, *cavity.walls, settings);
         const std::uint64_t layer_seed =
             settings.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(cavity.layer);
-        result.forest = grow_supports(std::move(propagated), result.unsupported, boundary, layer_seed, settings);
+        GrownSupports grown = grow_supports(std::move(propagated), result.unsupported, boundary, layer_seed, settings);
+        result.forest = std::move(grown.forest);
+        result.full_bonus = grown.full_bonus, result.quarter_bonus = grown.quarter_bonus;
         if (!cavity.outside) {
             result.braces = brace_trees(result.forest, boundary, settings.brace);
             mark_wide_trees(result.forest, settings);

@@ -12,6 +12,7 @@ struct LayerSupports {
     Region unsupported;  ///< U_{i+1} (a superset, see detection), for pictures
     int blocked = 0;     ///< chains that could not be straightened without crossing another wall
     int braces = 0;      ///< walls to a second root added here (settings.brace)
+    bool full_bonus = false, quarter_bonus = false;  ///< used by a wall that was added here (GrownSupports)
 };
 
 /// S_i under `above` = S_{i+1}. `overhang` is overhang_over_cavity(C_i, ...). Marks in `above` the branches that do not

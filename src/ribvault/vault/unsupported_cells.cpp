@@ -17,7 +17,7 @@ UnsupportedCells::UnsupportedCells(const Region& unsupported, const Settings& se
     : pitch_(settings.sampling_pitch),
       radius_(static_cast<double>(settings.nozzle / 2 + settings.support_radius)),
       slack_(static_cast<double>(settings.slack)),
-      location_(edges_of(unsupported), cell_pixels * settings.sampling_pitch) {
+      location_(edges_of(unsupported), settings.sampling_pitch) {
     const Unit size = cell_pixels * pitch_;
     const Box& box = location_.box();
     const Unit x0 = floor_div(box.lo.x, size), x1 = floor_div(box.hi.x, size);
@@ -63,15 +63,16 @@ Point UnsupportedCells::pixel(const Cell& cell, Unit bit) const {
             cell.box.lo.y + bit / cell_pixels * pitch_ + pitch_ / 2};
 }
 
-bool UnsupportedCells::covered(const Box& box, const GrowingSupports& supports) const {
+std::vector<std::size_t> UnsupportedCells::uncovered(const Box& window, const GrowingSupports& supports) const {
+    std::vector<std::size_t> open;
     const Unit size = cell_pixels * pitch_;
-    for (Unit cy = floor_div(box.lo.y, size); cy <= floor_div(box.hi.y, size); ++cy) {
-        const Unit last = floor_div(box.hi.x, size);
-        for (auto it = cell_at_.lower_bound({cy, floor_div(box.lo.x, size)});
+    for (Unit cy = floor_div(window.lo.y, size); cy <= floor_div(window.hi.y, size); ++cy) {
+        const Unit last = floor_div(window.hi.x, size);
+        for (auto it = cell_at_.lower_bound({cy, floor_div(window.lo.x, size)});
              it != cell_at_.end() && it->first <= std::pair(cy, last); ++it)
-            if (find_uncovered(cells_[it->second].box, box, supports, [](Point) { return true; })) return false;
+            if (!covered(it->second, window, supports)) open.push_back(it->second);
     }
-    return true;
+    return open;
 }
 
 }  // namespace ribvault

@@ -1,6 +1,7 @@
 // The unsupported region as square cells: its pixels, and where between them something is not covered yet.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -24,36 +25,44 @@ public:
     const std::vector<Cell>& cells() const { return cells_; }
     Point pixel(const Cell& cell, Unit bit) const;
 
-    /// Looks for points of the region inside `cell` that no wall covers: halves the cell until each part lies within
-    /// r + ρ of one wall or shows a point that is not covered. Calls found(p) for such points, at most one a part,
-    /// until it returns true; returns whether it did. A part smaller than the slack is covered when its centre is, with
-    /// the slack to spare, so this ends; parts outside `window` are left out.
+    /// Looks for points of the region inside a cell (index in cells()) that no wall covers: halves the cell until each
+    /// part lies within r + ρ of one wall or shows a point that is not covered. Calls found(p) for such points, at most
+    /// one a part, until it returns true; returns whether it did. A part smaller than the slack is covered when its
+    /// centre is, with the slack to spare, so this ends; parts outside `window` are left out.
     template <class Found>
-    bool find_uncovered(const Box& cell, const Box& window, const GrowingSupports& supports, Found&& found) const {
-        return search(cell, window, supports, true, found);
+    bool find_uncovered(std::size_t cell, const Box& window, const GrowingSupports& supports, Found&& found) const {
+        return search(cells_[cell].box, window, supports, true, Side::boundary, found);
     }
-    /// Is every point of the region in the box covered?
-    bool covered(const Box& box, const GrowingSupports& supports) const;
+    /// The cells that have points of the region in `window` that are not covered (indices in cells()).
+    std::vector<std::size_t> uncovered(const Box& window, const GrowingSupports& supports) const;
+    /// Is every point of the region in this cell and in `window` covered?
+    bool covered(std::size_t cell, const Box& window, const GrowingSupports& supports) const {
+        return !find_uncovered(cell, window, supports, [](Point) { return true; });
+    }
 
     static Point centre(const Box& box) { return {(box.lo.x + box.hi.x) / 2, (box.lo.y + box.hi.y) / 2}; }
     /// Upper bound of the distance from the centre to any point of the box.
-    static double half_diagonal(const Box& box) { return 0.5 * length(box.hi - box.lo) + 1; }
+    static double half_diagonal(const Box& box) {
+        const auto dx = static_cast<double>(box.hi.x - box.lo.x), dy = static_cast<double>(box.hi.y - box.lo.y);
+        return 0.5 * std::sqrt(dx * dx + dy * dy) + 1;
+    }
 
 private:
+    /// `edges`: edges of the region may meet the box; otherwise all of it lies on this `side`.
     template <class Found>
-    bool search(const Box& box, const Box& window, const GrowingSupports& supports, bool edges, Found&& found) const {
+    bool search(const Box& box, const Box& window, const GrowingSupports& supports, bool edges, Side side,
+                Found&& found) const {
         if (box.lo.x > window.hi.x || box.hi.x < window.lo.x || box.lo.y > window.hi.y || box.hi.y < window.lo.y)
             return false;
         const Point c = centre(box);
         const double half = half_diagonal(box);
         if (supports.covers(c, radius_ - half)) return false;
-        edges = edges && location_.edge_meets(box);
-        const Side side = location_.locate(c);
+        if (edges) edges = location_.edge_meets(box), side = location_.locate(c);
         if (!edges && side == Side::outside) return false;
         if (!supports.covers(c, radius_ - slack_) && (side != Side::outside || half <= slack_)) return found(c);
         for (const Box& part : {Box{box.lo, c}, Box{{c.x, box.lo.y}, {box.hi.x, c.y}},
                                 Box{{box.lo.x, c.y}, {c.x, box.hi.y}}, Box{c, box.hi}})
-            if (search(part, window, supports, edges, found)) return true;
+            if (search(part, window, supports, edges, side, found)) return true;
         return false;
     }
 

@@ -65,6 +65,40 @@ private:
     std::vector<FrameStadium> seen_;
 };
 
+// Into how many parts a track can be cut at points that have whole numbers of 10 nm from its ends; 0: not finely.
+std::int64_t lattice_parts(const PrintedTrack& track, double length) {
+    constexpr std::int64_t lattice = 10000;  // pm
+    constexpr double fine = 1e-4;            // mm
+    for (const PrintedPoint& end : {track.a, track.b})
+        if (!end[0].whole() || !end[1].whole()) return 0;
+    const std::int64_t most =
+        std::gcd(track.b[0].picometres() - track.a[0].picometres(), track.b[1].picometres() - track.a[1].picometres());
+    return most % lattice == 0 && length * lattice <= fine * static_cast<double>(most) ? most / lattice : 0;
+}
+
+// At least this stretch as a track of its own. It ends where numbers are short, if there are such places nearby.
+PrintedTrack piece_of(const PrintedTrack& whole, const PreparedTrack& prepared, const Stretch& stretch) {
+    PrintedTrack piece = whole;
+    if (prepared.inverse_norm <= 0) return piece;
+    const double lo = std::clamp(stretch.lo / prepared.length, 0.0, 1.0),
+                 hi = std::clamp(stretch.hi / prepared.length, 0.0, 1.0);
+    const std::int64_t parts = lattice_parts(whole, prepared.length);
+    const auto n = static_cast<double>(parts);
+    const auto first = static_cast<std::int64_t>(std::floor(lo * n)),
+               last = static_cast<std::int64_t>(std::ceil(hi * n));
+    for (const std::size_t c : {0, 1}) {
+        if (parts > 0) {
+            const std::int64_t from = whole.a[c].picometres(), step = (whole.b[c].picometres() - from) / parts;
+            piece.a[c] = Millimetres::of_picometres(from + first * step);
+            piece.b[c] = Millimetres::of_picometres(from + last * step);
+        } else {
+            const Rational from(whole.a[c]), d = Rational(whole.b[c]) - from;
+            piece.a[c] = Rational(from + d * Rational(lo)), piece.b[c] = Rational(from + d * Rational(hi));
+        }
+    }
+    return piece;
+}
+
 // How much farther the track's ends are from a segment below than R - w/2 allows, R being that one's stadium's radius.
 double excess(const PrintedPair& pair, const PreparedTrack& t, const PreparedTrack& below) {
     const double reach = below.half + pair.rho_approx - t.half;
@@ -164,16 +198,7 @@ bool Judge::violates(std::vector<OpenPart> parts, bool known) {
     if (!known || !wanted()) return known;
     for (OpenPart& part : parts) {
         if (!part.gap) {
-            const PreparedTrack& t = pair_.above[track_];
-            const PrintedTrack& whole = pair_.upper[track_];
-            PrintedTrack piece = whole;
-            if (t.inverse_norm > 0)
-                for (const std::size_t c : {0, 1}) {
-                    const Rational from(whole.a[c]), d = Rational(whole.b[c]) - from;
-                    piece.a[c] = Rational(from + d * Rational(std::clamp(part.stretch.lo / t.length, 0.0, 1.0)));
-                    piece.b[c] = Rational(from + d * Rational(std::clamp(part.stretch.hi / t.length, 0.0, 1.0)));
-                }
-            part.piece = std::move(piece);
+            part.piece = piece_of(pair_.upper[track_], pair_.above[track_], part.stretch);
             if (!uncovered(part)) continue;
         }
         found.open.push_back(std::move(part));
