@@ -349,7 +349,7 @@ TEST_CASE("of the ways to grow supports the run uses the one that costs least") 
         CHECK(c.length_mm == Approx(run(job, c.quarter_bonus, c.seed).totals.support_length_mm));
         CHECK(c.tips == tips_in(folder.path / "alone.jsonl"));
         CHECK(c.tips > 0);
-        CHECK(c.cost_mm == Approx(c.length_mm + 0.5 * static_cast<double>(c.tips)));
+        CHECK(c.cost_mm == Approx(c.length_mm + 0.8 * static_cast<double>(c.tips)));
         CHECK(c.cost_mm >= chosen.candidates.front().cost_mm);
         lengths.insert(c.length_mm);
     }

@@ -21,7 +21,7 @@ struct Chosen {
 
 /// Sweeps all layers with every combination that `settings` leaves open (choose_bonus: a quarter of the bonus in narrow
 /// places, everywhere or nowhere; tries: as many seeds from settings.seed on); the first that costs least is the best:
-/// track, and 5/4 of a width of it for each tip. Nothing is printed or proved meanwhile; slices and cavities are made
+/// track, and twice its width for each tip. Nothing is printed or proved meanwhile; slices and cavities are made
 /// once for all of them. At most a window of layers is alive at any time. The result does not depend on `threads`.
 /// `progress(done, layers)` as layers are done.
 ///

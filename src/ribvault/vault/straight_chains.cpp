@@ -1,0 +1,60 @@
+#include "ribvault/vault/straight_chains.hpp"
+
+#include <algorithm>
+
+#include "ribvault/vault/wall_contacts.hpp"
+
+namespace ribvault {
+namespace {
+
+constexpr Unit rounding = 2;  ///< units that places of a straight wall may be off it
+
+/// Would a wall from a to b, vertices of two walls each of which has v at its other end, meet any other wall?
+bool meets_walls(const MovingSupports& supports, std::size_t a, std::size_t b, std::size_t v) {
+    const std::vector<MovingSupports::Node>& nodes = supports.nodes;
+    const Segment way{nodes[a].at, nodes[b].at};
+    bool meets = false;
+    supports.visit_walls(bounding_box(way), [&](std::uint32_t k) {
+        const MovingSupports::Wall& wall = supports.walls[supports.now(k)];
+        if (meets || !wall.alive || wall.a == v || wall.b == v) return;
+        for (const auto& [end, far] : {std::pair(a, b), std::pair(b, a)}) {
+            if (wall.a != end && wall.b != end) continue;
+            const Point p = nodes[end].at, q = nodes[far].at, r = nodes[wall.a == end ? wall.b : wall.a].at;
+            meets = orientation(p, q, r) == 0 && ahead(p, q, r);
+            return;
+        }
+        meets = collide(way, supports.segment(wall));
+    });
+    return meets;
+}
+
+}  // namespace
+
+void drop_straight_vertices(MovingSupports& supports) {
+    std::vector<MovingSupports::Node>& nodes = supports.nodes;
+    std::vector<MovingSupports::Wall>& walls = supports.walls;
+    for (std::size_t v = 0; v < nodes.size(); ++v) {
+        MovingSupports::Node& node = nodes[v];
+        if (node.gone || node.root || node.stays || node.walls.size() != 2) continue;
+        const std::uint32_t first = node.walls[0], second = node.walls[1];
+        const std::size_t a = supports.other(first, v), b = supports.other(second, v);
+        const Segment way{nodes[a].at, nodes[b].at};
+        if (way.a == way.b || compare_distance(node.at, way, rounding) > 0) continue;
+        if (node.was.standing > vertex_between(nodes[a].was, nodes[b].was, node.was.at).standing + 1) continue;
+        std::vector<Point> passed = walls[first].passed;
+        passed.insert(passed.end(), walls[second].passed.begin(), walls[second].passed.end());
+        passed.insert(passed.end(), node.from.begin(), node.from.end());
+        if (std::any_of(passed.begin(), passed.end(),
+                        [&](Point p) { return compare_distance(p, way, supports.step) > 0; }) ||
+            meets_walls(supports, a, b, v))
+            continue;
+        (walls[first].a == v ? walls[first].a : walls[first].b) = b;
+        walls[first].passed = std::move(passed);
+        walls[second].alive = false, walls[second].merged = first;
+        std::replace(nodes[b].walls.begin(), nodes[b].walls.end(), second, first);
+        node.gone = true;
+        node.walls.clear();
+    }
+}
+
+}  // namespace ribvault
