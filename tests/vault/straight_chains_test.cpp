@@ -100,4 +100,11 @@ TEST_CASE("what stands higher than the ends of the wall say stays known") {
     CHECK(left(3) == 1);
     CHECK(left(11) == 1);
     CHECK(left(12) == 2);
+    // Also once it lies on a wall: 15 may go by itself, and would be 3 too many between the ends.
+    SupportForest forest = chain_of({{0, 0}, {100000, 0}, {200000, 0}, {300000, 0}});
+    const int standing[] = {4, 15, 25, 36};
+    for (std::size_t v = 0; v < 4; ++v) forest[v].standing = standing[v];
+    forest[1].standing = 16, forest[2].standing = 26;
+    MovingSupports supports(forest, room, step, 0);
+    CHECK(walls_left(supports) == 2);
 }

@@ -81,6 +81,57 @@ Scene random_scene(std::mt19937_64& random, std::int64_t jitter, std::int64_t ap
     return scene;
 }
 
+/// The gaps of a scene, asked for in both ways, are those that exact numbers give. In doubles their beginnings are
+/// known to less than `widest` mm. Returns how many there are.
+std::size_t check_gaps(const Scene& scene, double widest) {
+    const std::vector<CentreGap> exact = scene.gaps(true), about = scene.gaps(false);
+    const std::vector<std::array<QuadraticNumber, 2>> right = gaps_of(scene);
+    REQUIRE(exact.size() == right.size());
+    REQUIRE(exact.size() == about.size());
+    const double length = prepare({&scene.track, 1})[0].length;
+    // What doubles call inside a distance is off by a few of their last places.
+    constexpr double rounding = 1e-13;
+    for (std::size_t k = 0; k < exact.size(); ++k) {
+        const double from = enclose(exact[k].from, 60)[0].get_d() * length,
+                     to = enclose(exact[k].to, 60)[0].get_d() * length;
+        CHECK(about[k].from_lo <= from + rounding);
+        CHECK(from <= about[k].from_hi + rounding);
+        CHECK(about[k].to_lo <= to + rounding);
+        CHECK(to <= about[k].to_hi + rounding);
+        CHECK(about[k].from_hi - about[k].from_lo < widest);
+        CHECK(exact[k].from_lo <= from + rounding);
+        CHECK(to <= exact[k].to_hi + rounding);
+        CHECK(compare(exact[k].from, right[k][0]) == 0);
+        CHECK(compare(exact[k].to, right[k][1]) == 0);
+    }
+    return exact.size();
+}
+
+/// A line on whose one side or other walls graze the limit, almost parallel, with short ones in between.
+Scene grazing_scene(std::mt19937_64& random) {
+    const auto pick = [&](std::int64_t lo, std::int64_t hi) {
+        return std::uniform_int_distribution<std::int64_t>(lo, hi)(random);
+    };
+    const auto at = [](std::int64_t x, std::int64_t y) {
+        return PrintedPoint{Millimetres::of_picometres(x), Millimetres::of_picometres(y)};
+    };
+    Scene scene;
+    scene.track = {at(0, 0), at(1200 * step, 0), Millimetres::of_picometres(8 * step)};
+    const std::int64_t limit = 8 * step;
+    for (int k = 0; k < 2; ++k) {
+        const std::int64_t x = pick(-100, 1100) * step, side = pick(0, 1) ? limit : -limit;
+        scene.lower.push_back(
+            {at(x, side + pick(-2, 2)), at(x + pick(1, 900) * step, side + pick(-2, 2)), scene.track.width});
+    }
+    for (int k = 0; k < 3; ++k) {
+        const std::int64_t x = pick(0, 1200) * step, y = pick(-9, 9) * step;
+        scene.lower.push_back(
+            {at(x, y), at(x + pick(0, 1) * pick(-9, 9) * step, pick(-60, 60) * step), scene.track.width});
+    }
+    if (pick(0, 1)) std::shuffle(scene.lower.begin(), scene.lower.end(), random);
+    return scene;
+}
+
 }  // namespace
 
 TEST_CASE("ends of unsupported stretches lie where the doubles say, asked for exactly or not") {
@@ -92,27 +143,24 @@ TEST_CASE("ends of unsupported stretches lie where the doubles say, asked for ex
                                          : trial % 3 == 1 ? 1
                                                           : 1000,
                                          trial % 4 == 0 ? 0 : 4 + trial % 12);
-        const std::vector<CentreGap> exact = scene.gaps(true), about = scene.gaps(false);
-        const std::vector<std::array<QuadraticNumber, 2>> right = gaps_of(scene);
-        REQUIRE(exact.size() == right.size());
-        REQUIRE(exact.size() == about.size());
-        found += exact.size();
-        const double length = prepare({&scene.track, 1})[0].length;
-        // What doubles call inside a distance is off by a few of their last places.
-        constexpr double rounding = 1e-13;
-        for (std::size_t k = 0; k < exact.size(); ++k) {
-            const double from = enclose(exact[k].from, 60)[0].get_d() * length,
-                         to = enclose(exact[k].to, 60)[0].get_d() * length;
-            CHECK(about[k].from_lo <= from + rounding);
-            CHECK(from <= about[k].from_hi + rounding);
-            CHECK(about[k].to_lo <= to + rounding);
-            CHECK(to <= about[k].to_hi + rounding);
-            CHECK(about[k].from_hi - about[k].from_lo < 1e-3);
-            CHECK(exact[k].from_lo <= from + rounding);
-            CHECK(to <= exact[k].to_hi + rounding);
-            CHECK(compare(exact[k].from, right[k][0]) == 0);
-            CHECK(compare(exact[k].to, right[k][1]) == 0);
-        }
+        found += check_gaps(scene, 1e-3);
     }
     CHECK(found > 1000);
+}
+
+TEST_CASE("short stretches where others only graze the limit are seen, and the gaps beside them") {
+    std::mt19937_64 random(8);
+    std::size_t found = 0;
+    for (int trial = 0; trial < 12000; ++trial) found += check_gaps(grazing_scene(random), 60);
+    CHECK(found > 10000);
+    // A wall comes within reach somewhere between 120 and 160 mm; before it does, another one crosses.
+    const auto at = [](double x, std::int64_t y) {
+        return PrintedPoint{Millimetres(Rational(x)), Millimetres::of_picometres(y)};
+    };
+    Scene scene;
+    scene.track = {at(100, 0), at(160, 0), Millimetres::of_picometres(8 * step)};
+    scene.lower = {{at(100, 0), at(120, 0), scene.track.width},
+                   {at(136, -60 * step), at(136, 60 * step), scene.track.width},
+                   {at(120, 8 * step + 1), at(160, 8 * step - 1), scene.track.width}};
+    CHECK(check_gaps(scene, 60) == 2);
 }

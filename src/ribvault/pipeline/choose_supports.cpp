@@ -12,14 +12,15 @@ namespace ribvault {
 namespace {
 
 /// How much track a tip takes beyond its wall, in widths of a track: what closes gaps, and patches. With 3/2 to 5/2 the
-/// way that extrudes least is found on twelve of fourteen models (experiments/README.md), on the others one that
+/// way that extrudes least was found on twelve of the fourteen models of experiments/README.md, on the others one that
 /// extrudes 0.14 % more at most.
 constexpr double cost_of_tip = 2;
 constexpr std::size_t most_kept = 12;  ///< sweeps on disk at a time: about as much as their layers' G-code each
 
 struct Sweep {
     Settings settings;
-    std::shared_ptr<LayerSupports> supports;  ///< of the last layer; shared by sweeps that came to the same
+    /// Of the last layer; shared by sweeps with the same seed that have come to the same so far.
+    std::shared_ptr<LayerSupports> supports;
     double length = 0;  ///< lattice units
     std::size_t tips = 0;
 };
@@ -31,13 +32,12 @@ std::size_t tips_of(const SupportForest& forest) {
         std::count_if(begin, end, [&](std::size_t v) { return out_degree(v, forest) == 1 && !forest[v].root; }));
 }
 
-/// The sweeps that have the same supports on the last layer, and the same ties.
+/// The sweeps with the same seed that have come to the same supports on all layers so far.
 std::vector<std::vector<std::size_t>> alike(const std::vector<Sweep>& sweeps) {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t k = 0; k < sweeps.size(); ++k) {
         const auto same = [&](const std::vector<std::size_t>& group) {
-            const Sweep& other = sweeps[group.front()];
-            return other.supports == sweeps[k].supports && other.settings.seed == sweeps[k].settings.seed;
+            return sweeps[group.front()].supports == sweeps[k].supports;
         };
         const auto group = std::find_if(groups.begin(), groups.end(), same);
         (group == groups.end() ? groups.emplace_back() : *group).push_back(k);
@@ -56,12 +56,12 @@ bool same_next(const LayerSupports& next, QuarterBonus other) {
 std::vector<std::string> step(const std::vector<Sweep*>& group, const Token& token, bool keep) {
     std::vector<std::string> done(group.size());
     std::vector<char> advanced(group.size(), 0);
-    const std::shared_ptr<const LayerSupports> above = group.front()->supports;
+    const std::shared_ptr<LayerSupports> above = group.front()->supports;
     for (std::size_t k = 0; k < group.size(); ++k) {
         if (advanced[k]) continue;
-        LayerSupports complete = *above;  // with marks of where it ends, which is not the same for all
-        const auto next = std::make_shared<LayerSupports>(next_supports(complete.forest, token, group[k]->settings));
-        const std::string packed = keep ? packed_supports(complete) : std::string();
+        // What ends on the layer above does not depend on what is grown here.
+        const auto next = std::make_shared<LayerSupports>(next_supports(above->forest, token, group[k]->settings));
+        const std::string packed = keep ? packed_supports(*above) : std::string();
         const double longer = length(next->forest);
         const std::size_t tips = tips_of(next->forest);
         for (std::size_t other = k; other < group.size(); ++other) {
@@ -95,13 +95,14 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
     std::vector<QuarterBonus> bonuses{settings.quarter_bonus};
     if (settings.choose_bonus && settings.branch_bonus && settings.branch_bonus_length > 0)
         bonuses = {QuarterBonus::narrow, QuarterBonus::everywhere, QuarterBonus::nowhere};
-    const auto top = std::make_shared<LayerSupports>();
-    for (int k = 0; k < settings.tries; ++k)
+    for (int k = 0; k < settings.tries; ++k) {
+        const auto top = std::make_shared<LayerSupports>();
         for (const QuarterBonus bonus : bonuses) {
             sweeps.push_back({settings, top});
             sweeps.back().settings.quarter_bonus = bonus;
             sweeps.back().settings.seed = settings.seed + static_cast<std::uint64_t>(k);
         }
+    }
     if (sweeps.size() < 2) return {};
 
     const std::size_t limit = thread_limit(threads);

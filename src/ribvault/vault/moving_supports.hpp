@@ -30,13 +30,18 @@ struct MovingSupports {
         bool free = false;   ///< a root away from the shell
         bool stays = false;  ///< of a free tree with no more track than a pillar
     };
+    /// Where a vertex was, as Node::from, and what stands there.
+    struct Passed {
+        Point from;
+        std::int32_t standing;
+    };
     struct Wall {
         std::size_t a, b;
         Segment was;         ///< before anything moved
         std::size_t origin;  ///< the wall of the input that it is or a part of which it was; of a stem none
         bool alive = true;
         std::size_t merged = none;    ///< the wall that goes on in its place (straight_chains.hpp)
-        std::vector<Point> passed{};  ///< where vertices were that lie on it now, as Node::from
+        std::vector<Passed> passed{};  ///< of vertices that lie on it now
     };
 
     /// `boundary` must outlive this. In a free tree with no more track than `pillar_length` everything stays.

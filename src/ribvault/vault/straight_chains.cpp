@@ -40,14 +40,14 @@ void drop_straight_vertices(MovingSupports& supports) {
         const std::size_t a = supports.other(first, v), b = supports.other(second, v);
         const Segment way{nodes[a].at, nodes[b].at};
         if (way.a == way.b || compare_distance(node.at, way, rounding) > 0) continue;
-        if (node.was.standing > vertex_between(nodes[a].was, nodes[b].was, node.was.at).standing + 1) continue;
-        std::vector<Point> passed = walls[first].passed;
+        std::vector<MovingSupports::Passed> passed = walls[first].passed;
         passed.insert(passed.end(), walls[second].passed.begin(), walls[second].passed.end());
-        passed.insert(passed.end(), node.from.begin(), node.from.end());
-        if (std::any_of(passed.begin(), passed.end(),
-                        [&](Point p) { return compare_distance(p, way, supports.step) > 0; }) ||
-            meets_walls(supports, a, b, v))
-            continue;
+        for (const Point from : node.from) passed.push_back({from, node.was.standing});
+        const auto lost = [&](const MovingSupports::Passed& p) {
+            return compare_distance(p.from, way, supports.step) > 0 ||
+                   p.standing > vertex_between(nodes[a].was, nodes[b].was, p.from).standing + 1;
+        };
+        if (std::any_of(passed.begin(), passed.end(), lost) || meets_walls(supports, a, b, v)) continue;
         (walls[first].a == v ? walls[first].a : walls[first].b) = b;
         walls[first].passed = std::move(passed);
         walls[second].alive = false, walls[second].merged = first;

@@ -144,8 +144,8 @@ struct Reached {
 };
 
 // By increasing lower bounds of where they begin: when one certainly begins beyond what is covered so far, so do all
-// after it. Where doubles do not tell two ends apart, these are compared exactly; nothing when they leave a gap that is
-// as short as that.
+// after it. Where doubles do not tell two ends apart, these are compared exactly; nothing when what they cover or leave
+// open may be as short as that.
 std::optional<std::vector<CentreGap>> Line::gaps_in_doubles(std::vector<Covered>& all, End& begin, End& end,
                                                             bool exact_ends) {
     std::sort(all.begin(), all.end(), [](const Covered& p, const Covered& q) { return p.from.lo < q.from.lo; });
@@ -161,20 +161,25 @@ std::optional<std::vector<CentreGap>> Line::gaps_in_doubles(std::vector<Covered>
     const auto reaches = [&](End& p) {
         return std::any_of(reached.ends.begin(), reached.ends.end(), [&](End* e) { return order(*e, p) >= 0; });
     };
-    // The first to begin of those that doubles do not tell apart, `next` being one with the least lower bound.
-    const auto first = [&](std::vector<Covered>::iterator next) {
+    // After a gap, the first to begin of those that doubles do not tell apart, `next` being one with the least lower
+    // bound; nothing when one of them may end before the others begin: then another gap may follow at once.
+    const auto first = [&](std::vector<Covered>::iterator next) -> End* {
         End* least = &next->from;
-        for (auto c = next + 1; exact_ends && c != all.end() && c->from.lo <= next->from.hi; ++c)
-            if (order(c->from, *least) < 0) least = &c->from;
+        for (auto c = next + 1; c != all.end() && c->from.lo <= next->from.hi; ++c) {
+            if (c->to.lo < next->from.hi) return nullptr;
+            if (exact_ends && order(c->from, *least) < 0) least = &c->from;
+        }
         return least;
     };
     for (auto next = all.begin(); next != all.end(); ++next) {
         Covered& c = *next;
         if (c.from.lo > end.hi) break;
         if (c.from.hi >= end.lo && order(c.from, end) >= 0) continue;
-        if (c.from.lo > reached.hi)
-            found.push_back(gap_between(farthest(), *first(next), exact_ends));
-        else if (c.from.hi >= reached.lo && !reaches(c.from))
+        if (c.from.lo > reached.hi) {
+            End* const begins = first(next);
+            if (!begins) return std::nullopt;
+            found.push_back(gap_between(farthest(), *begins, exact_ends));
+        } else if (c.from.hi >= reached.lo && !reaches(c.from))
             return std::nullopt;
         reached.extend(c.to);
     }
