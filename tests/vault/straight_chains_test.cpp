@@ -70,6 +70,11 @@ TEST_CASE("every point that was on a wall stays within the step of it") {
     MovingSupports supports(chain_of({{0, 0}, {100000, 0}, {200000, 0}, {300000, 3}}), room, step, 0);
     supports.nodes[1].from = {{100000, -step}};
     CHECK(walls_left(supports) == 2);
+    // Or the one before it, which comes later.
+    MovingSupports turned(forest_of({{{0, 3}, {200000, 0}, {100000, 0}, {300000, 0}}, {0}, {{0, 2}, {2, 1}, {1, 3}}}),
+                          room, step, 0);
+    turned.nodes[1].from = {{200000, -step}};
+    CHECK(walls_left(turned) == 2);
 }
 
 TEST_CASE("no wall is laid over another") {

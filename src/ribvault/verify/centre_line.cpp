@@ -184,7 +184,6 @@ std::optional<std::vector<CentreGap>> Line::gaps_in_doubles(std::vector<Covered>
         reached.extend(c.to);
     }
     if (reached.lo > end.hi || (reached.hi >= end.lo && reaches(end))) return found;
-    if (reached.hi >= end.lo) return std::nullopt;
     found.push_back(gap_between(farthest(), end, exact_ends));
     return found;
 }
