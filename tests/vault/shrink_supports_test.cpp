@@ -107,6 +107,15 @@ TEST_CASE("walls whose roots are in the same place are zipped up from it") {
     CHECK(length(zipped.forest) < 0.6 * length(fork));
 }
 
+TEST_CASE("two roots of a braced tree in one place become one, and what was there twice is there once") {
+    const SupportForest twice = forest_of(
+        {{{0, 1000000}, {0, 1000000}, {300000, 1000000}, {900000, 1000000}}, {0, 1}, {{0, 2}, {1, 2}, {2, 3}}});
+    const ShrunkSupports once = shrink_supports(twice, square(), 20000, 0, 100000);
+    CHECK(component_count(once.forest) == 1);
+    CHECK(length(once.forest) == Approx(880000).margin(5));
+    CHECK(once.survives == std::vector<char>{1, 1, 1});
+}
+
 TEST_CASE("a corner is zipped as far when one of its walls has just been cut between two roots") {
     const SupportForest fork =
         forest_of({{{0, 1000000}, {2000000, 1010000}, {900000, 990000}}, {0, 1}, {{0, 1}, {0, 2}}});

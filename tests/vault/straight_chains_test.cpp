@@ -88,6 +88,12 @@ TEST_CASE("no wall is laid over another") {
         MovingSupports supports(forest, room, step, 0);
         CHECK(walls_left(supports) == (tip > 0 ? 3u : 2u));
     }
+    // Another tree's wall in the same place.
+    SupportForest twice = chain_of({{0, 0}, {200000, 2}, {400000, 0}});
+    add_edge(add_vertex(SupportVertex{.at = {0, 0}, .root = true}, twice),
+             add_vertex(SupportVertex{{400000, 0}}, twice), twice);
+    MovingSupports same(twice, room, step, 0);
+    CHECK(walls_left(same) == 3);
     // A branch at its end that runs back along the way.
     SupportForest forest = chain_of({{0, 0}, {200000, 2}, {400000, 0}});
     add_edge(2, add_vertex(SupportVertex{{300000, 0}}, forest), forest);

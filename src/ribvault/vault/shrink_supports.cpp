@@ -30,6 +30,7 @@ public:
                 if (!supports_.nodes[v].gone && !supports_.nodes[v].walls.empty()) moved = improve(v) || moved;
             if (!moved) break;
         }
+        if (braced_ > 0) unite_roots_in_place(supports_);
         drop_straight_vertices(supports_);
         return finish();
     }

@@ -26,8 +26,8 @@ struct ShrunkSupports {
 /// operators; where a wall is zipped or cut in between, the place on it is rounded to the lattice (0.7 units, 7 nm). No
 /// two walls cross that did not before.
 ///
-/// `braced` > 0 (vault/brace_trees.hpp): a tree is cut between its roots only where no part would be longer, and trees
-/// do not become one.
+/// `braced` > 0 (vault/brace_trees.hpp): a tree is cut between its roots only where no part would be longer, two of its
+/// roots that have come to the same place become one, and trees do not become one.
 ///
 /// Roots of trees that stand free stay where they are, and of such a tree that has no more than `pillar_length`
 /// everything does.

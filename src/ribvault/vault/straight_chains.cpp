@@ -9,21 +9,22 @@ namespace {
 
 constexpr Unit rounding = 2;  ///< units that places of a straight wall may be off it
 
-/// Would a wall from a to b, vertices of two walls each of which has v at its other end, meet any other wall?
-bool meets_walls(const MovingSupports& supports, std::size_t a, std::size_t b, std::size_t v) {
-    const std::vector<MovingSupports::Node>& nodes = supports.nodes;
-    const Segment way{nodes[a].at, nodes[b].at};
+/// Do two walls that begin in the same place lie on each other from there?
+bool overlap(const Segment& s, const Segment& t) {
+    for (const auto& [end, far] : {std::pair(s.a, s.b), std::pair(s.b, s.a)})
+        for (const auto& [same, other] : {std::pair(t.a, t.b), std::pair(t.b, t.a)})
+            if (same == end && orientation(end, far, other) == 0 && ahead(end, far, other)) return true;
+    return false;
+}
+
+/// Would a wall there meet any other wall than those that end in v?
+bool meets_walls(const MovingSupports& supports, const Segment& way, std::size_t v) {
     bool meets = false;
     supports.visit_walls(bounding_box(way), [&](std::uint32_t k) {
         const MovingSupports::Wall& wall = supports.walls[supports.now(k)];
         if (meets || !wall.alive || wall.a == v || wall.b == v) return;
-        for (const auto& [end, far] : {std::pair(a, b), std::pair(b, a)}) {
-            if (wall.a != end && wall.b != end) continue;
-            const Point p = nodes[end].at, q = nodes[far].at, r = nodes[wall.a == end ? wall.b : wall.a].at;
-            meets = orientation(p, q, r) == 0 && ahead(p, q, r);
-            return;
-        }
-        meets = collide(way, supports.segment(wall));
+        const Segment other = supports.segment(wall);
+        meets = collide(way, other) || overlap(way, other);
     });
     return meets;
 }
@@ -47,7 +48,7 @@ void drop_straight_vertices(MovingSupports& supports) {
             return compare_distance(p.from, way, supports.step) > 0 ||
                    p.standing > vertex_between(nodes[a].was, nodes[b].was, p.from).standing + 1;
         };
-        if (std::any_of(passed.begin(), passed.end(), lost) || meets_walls(supports, a, b, v)) continue;
+        if (std::any_of(passed.begin(), passed.end(), lost) || meets_walls(supports, way, v)) continue;
         (walls[first].a == v ? walls[first].a : walls[first].b) = b;
         walls[first].passed = std::move(passed);
         walls[second].alive = false, walls[second].merged = first;

@@ -96,4 +96,20 @@ bool RootMeetings::approach(std::size_t v) {
     return meet(v) || supports_.go_along_shell(v, vec(there), there, 0.5 * length(there - supports_.nodes[v].at));
 }
 
+void unite_roots_in_place(MovingSupports& supports) {
+    std::vector<MovingSupports::Node>& nodes = supports.nodes;
+    const auto on_shell = [&](std::size_t v) { return nodes[v].root && !nodes[v].free; };
+    for (std::size_t v = 0; v < nodes.size(); ++v)
+        for (std::size_t first = 0; first < nodes[v].walls.size(); ++first)
+            for (std::size_t k = nodes[v].walls.size(); k-- > first + 1;) {
+                const std::uint32_t kept = nodes[v].walls[first], same = nodes[v].walls[k];
+                const std::size_t a = supports.other(kept, v), b = supports.other(same, v);
+                if (a == b || nodes[a].at != nodes[b].at || !on_shell(a) || !on_shell(b)) continue;
+                std::erase(nodes[v].walls, same);
+                std::erase(nodes[b].walls, same);
+                supports.walls[same].alive = false, supports.walls[same].merged = kept;
+                supports.merge(b, a, {});
+            }
+}
+
 }  // namespace ribvault

@@ -1,4 +1,4 @@
-// Thrifty strategy: neighbouring trees become one by their roots.
+// Thrifty strategy: roots become one, of neighbouring trees or of one tree.
 #pragma once
 
 #include <cstddef>
@@ -36,5 +36,9 @@ private:
     MovingSupports& supports_;
     std::vector<std::size_t> partner_;  ///< of a root, the one it goes towards; none
 };
+
+/// Roots on the shell that have come to the same place, with walls to the same vertex, become one, and the walls one:
+/// braced trees, which are not cut, would have it twice from there on.
+void unite_roots_in_place(MovingSupports& supports);
 
 }  // namespace ribvault
