@@ -114,6 +114,13 @@ TEST_CASE("two roots of a braced tree in one place become one, and what was ther
     CHECK(component_count(once.forest) == 1);
     CHECK(length(once.forest) == Approx(880000).margin(5));
     CHECK(once.survives == std::vector<char>{1, 1, 1});
+    // In two places both stay.
+    const SupportForest apart = forest_of(
+        {{{0, 1000000}, {0, 1400000}, {300000, 1200000}, {900000, 1200000}}, {0, 1}, {{0, 2}, {1, 2}, {2, 3}}});
+    const SupportForest held = shrink_supports(apart, square(), 20000, 0, 100000).forest;
+    int roots = 0;
+    for (auto [v, end] = vertices(held); v != end; ++v) roots += held[*v].root;
+    CHECK(roots == 2);
 }
 
 TEST_CASE("a corner is zipped as far when one of its walls has just been cut between two roots") {

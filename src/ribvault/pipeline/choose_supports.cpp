@@ -51,29 +51,28 @@ bool same_next(const LayerSupports& next, QuarterBonus other) {
     return other == QuarterBonus::nowhere ? !next.quarter_bonus : !next.full_bonus;
 }
 
-/// The next layer of sweeps that are alike, made once for all that come to the same. Returns for each the layer before
-/// it, which is complete now, if it is to be kept.
-std::vector<std::string> step(const std::vector<Sweep*>& group, const Token& token, bool keep) {
-    std::vector<std::string> done(group.size());
-    std::vector<char> advanced(group.size(), 0);
-    const std::shared_ptr<LayerSupports> above = group.front()->supports;
-    for (std::size_t k = 0; k < group.size(); ++k) {
-        if (advanced[k]) continue;
-        // What ends on the layer above does not depend on what is grown here.
-        const auto next = std::make_shared<LayerSupports>(next_supports(above->forest, token, group[k]->settings));
-        const std::string packed = keep ? packed_supports(*above) : std::string();
+/// The next layer of the sweeps of a group that are alike, made once for all that come to the same. Enters for each in
+/// `finished` the layer before it, which is complete now, if it is to be kept.
+void step(std::vector<Sweep>& sweeps, const std::vector<std::size_t>& group, const Token& token, bool keep,
+          std::vector<std::string>& finished) {
+    const std::shared_ptr<LayerSupports> above = sweeps[group.front()].supports;
+    const auto waits = [&](std::size_t k) { return sweeps[k].supports == above; };
+    for (const std::size_t first : group) {
+        if (!waits(first)) continue;
+        const auto next = std::make_shared<LayerSupports>(next_supports(above->forest, token, sweeps[first].settings));
         const double longer = length(next->forest);
         const std::size_t tips = tips_of(next->forest);
-        for (std::size_t other = k; other < group.size(); ++other) {
-            Sweep& sweep = *group[other];
-            if (advanced[other] || (other != k && !same_next(*next, sweep.settings.quarter_bonus))) continue;
-            advanced[other] = 1;
+        for (const std::size_t k : group) {
+            Sweep& sweep = sweeps[k];
+            if (!waits(k) || (k != first && !same_next(*next, sweep.settings.quarter_bonus))) continue;
             sweep.supports = next;
             sweep.length += longer, sweep.tips += tips;
-            done[other] = packed;
         }
     }
-    return done;
+    // What ends on the layer above does not depend on what is grown below it.
+    if (!keep) return;
+    const std::string packed = packed_supports(*above);
+    for (const std::size_t k : group) finished[k] = packed;
 }
 
 /// Does it, and without what was kept so far where the temporary folder is full: the best sweep can be made again.
@@ -119,12 +118,8 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
             // Whoever waits here takes on no other layer meanwhile: this stage is what the rest waits for.
             tbb::this_task_arena::isolate([&] {
                 const std::vector<std::vector<std::size_t>> groups = alike(sweeps);
-                tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-                    std::vector<Sweep*> group;
-                    for (const std::size_t k : groups[g]) group.push_back(&sweeps[k]);
-                    const std::vector<std::string> packed = step(group, *token, keep);
-                    for (std::size_t k = 0; k < group.size(); ++k) finished[groups[g][k]] = packed[k];
-                });
+                tbb::parallel_for(std::size_t{0}, groups.size(),
+                                  [&](std::size_t g) { step(sweeps, groups[g], *token, keep, finished); });
             });
             if (keep) while_there_is_room(chosen.supports, [&] { chosen.supports->add(finished); });
             progress(++done, slicer.layer_count());

@@ -47,8 +47,7 @@ bool MovingSupports::collides(std::size_t v, Point p, std::size_t merged) const 
                 // Both end in v: they may not run over each other.
                 const std::size_t x = o.a == v ? o.b : o.a;
                 if (x == merged) return;
-                const Segment t{p, nodes[x].at};
-                hit = orientation(p, nodes[u].at, nodes[x].at) == 0 && t.a != t.b && ahead(p, nodes[u].at, nodes[x].at);
+                hit = lie_on_each_other(p, nodes[u].at, nodes[x].at);
                 return;
             }
             hit = collide(s, segment(o));
@@ -64,7 +63,7 @@ bool MovingSupports::runs_over(std::size_t v, std::size_t u) const {
         for (const std::uint32_t k : nodes[u].walls) {
             const std::size_t x = other(w, v), y = other(k, u);
             if (x == u || y == v) continue;
-            if (orientation(p, nodes[x].at, nodes[y].at) == 0 && ahead(p, nodes[x].at, nodes[y].at)) return true;
+            if (lie_on_each_other(p, nodes[x].at, nodes[y].at)) return true;
         }
     return false;
 }
@@ -107,11 +106,6 @@ bool MovingSupports::go_along_shell(std::size_t v, Vec wish, Point nearer_to, do
         return true;
     }
     return false;
-}
-
-bool ahead(Point p, Point q, Point r) {
-    const Vec a = vec(q) - vec(p), b = vec(r) - vec(p);
-    return dot(a, b) > 0;
 }
 
 }  // namespace ribvault

@@ -88,7 +88,4 @@ private:
     SegmentGrid grid_;
 };
 
-/// From p, does r lie on the side of q?
-bool ahead(Point p, Point q, Point r);
-
 }  // namespace ribvault

@@ -13,7 +13,7 @@ constexpr Unit rounding = 2;  ///< units that places of a straight wall may be o
 bool overlap(const Segment& s, const Segment& t) {
     for (const auto& [end, far] : {std::pair(s.a, s.b), std::pair(s.b, s.a)})
         for (const auto& [same, other] : {std::pair(t.a, t.b), std::pair(t.b, t.a)})
-            if (same == end && orientation(end, far, other) == 0 && ahead(end, far, other)) return true;
+            if (same == end && lie_on_each_other(end, far, other)) return true;
     return false;
 }
 

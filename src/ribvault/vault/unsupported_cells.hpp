@@ -1,7 +1,6 @@
 // The unsupported region as square cells: its pixels, and where between them something is not covered yet.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -42,10 +41,7 @@ public:
 
     static Point centre(const Box& box) { return {(box.lo.x + box.hi.x) / 2, (box.lo.y + box.hi.y) / 2}; }
     /// Upper bound of the distance from the centre to any point of the box.
-    static double half_diagonal(const Box& box) {
-        const auto dx = static_cast<double>(box.hi.x - box.lo.x), dy = static_cast<double>(box.hi.y - box.lo.y);
-        return 0.5 * std::sqrt(dx * dx + dy * dy) + 1;
-    }
+    static double half_diagonal(const Box& box) { return 0.5 * length(box.hi - box.lo) + 1; }
 
 private:
     /// `edges`: edges of the region may meet the box; otherwise all of it lies on this `side`.

@@ -12,6 +12,15 @@ inline bool collide(const Segment& s, const Segment& t) {
     return !shared || segments_cross(s, t);
 }
 
+/// Do two walls from p, to q and to r, lie on each other? Exact.
+inline bool lie_on_each_other(Point p, Point q, Point r) {
+    if (orientation(p, q, r) != 0) return false;
+    // Of vectors on one line no term of the product has another sign than the rest.
+    const Point a = q - p, b = r - p;
+    return static_cast<double>(a.x) * static_cast<double>(b.x) + static_cast<double>(a.y) * static_cast<double>(b.y) >
+           0;
+}
+
 /// Does a wall meet the shell anywhere but at a root of it (`root_a`, `root_b`: its ends are roots)?
 inline bool meets_shell(const Segment& wall, bool root_a, bool root_b, const CavityBoundary& boundary) {
     bool meets = false;

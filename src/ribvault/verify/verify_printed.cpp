@@ -67,8 +67,8 @@ private:
 
 // Into how many parts a track can be cut at points that have whole numbers of 10 nm from its ends; 0: not finely.
 std::int64_t lattice_parts(const PrintedTrack& track, double length) {
-    constexpr std::int64_t lattice = 10000;  // pm
-    constexpr double fine = 1e-4;            // mm
+    constexpr std::int64_t lattice = Millimetres::picometres_per_mm / units_per_mm;
+    constexpr double fine = 1e-4;  // mm
     for (const PrintedPoint& end : {track.a, track.b})
         if (!end[0].whole() || !end[1].whole()) return 0;
     const std::int64_t most =
