@@ -12,6 +12,27 @@ MESHES = ["bunny00", "elephant", "armadillo", "bear", "camel", "fandisk", "knot"
 PEER_MM3 = {"cube": 217, "bunny": 1117, "moai": 773, "kitten": 601}  # CuraEngine 4.13, lightning fill, not all of it supported
 INGREDIENTS = {"all": (), "no shrink": ("--no-shrink",), "no trim": ("--no-trim",), "no doubling": ("--no-doubling",), "whole bonus": ("--quarter-bonus", "nowhere"), "quarter in narrow places": ("--quarter-bonus", "narrow"), "quarter everywhere": ("--quarter-bonus", "everywhere")}
 MM3_PER_MM = 0.4 * 0.2  # of track
+WIDTHS = ["0.4", "0.36", "0.32", "0.28", "0.24", "0.2"]  # mm, of the supports' tracks
+
+
+def widths_table(lab):
+    table = Table("thrifty_widths", "Narrower supports, thrifty, one cover, seed 1",
+                  [("model", ""), ("--support-width", ""), ("supports mm³", ".0f"), ("all material mm³", ".0f"), ("minutes", ".1f"), ("travels", "d"), ("slenderness", ".0f"), ("proved", ""),
+                   ("CuraEngine's lightning, lines as wide: mm³", ".0f"), ("extruded over air there, mm", ".0f"), ("what", "")],
+                  note="Minutes without a least time per layer. CuraEngine's: infill by E; over air by `ribvault verify`, outside the object too.")
+    for name in PAPERS:
+        model = lab.registry[name]
+        if not model.file:
+            table.add(model.title, *[None] * 9, "the file is missing (--models)")
+            continue
+        for width in WIDTHS:
+            run = Run("generate", model, (*ONE_COVER, "--strategy", "thrifty", "--min-layer-time", "0", "--support-width", width))
+            peer = Run("cura", model, (f"infill_line_width={width}",))
+            seconds, hanging = lab.value(run, "totals.print_seconds"), lab.value(peer, "verify.report.totals.unsupported_mm")
+            table.add(model.title, width, *(lab.value(run, f"totals.{p}") for p in ("support_volume_mm3", "material_mm3")), None if seconds is None else seconds / 60,
+                      *(lab.value(run, f"totals.{p}") for p in ("travels", "slenderness")), lab.value(run, "verdict.proved") and lab.value(run, "verdict.print.proved"),
+                      lab.value(peer, "infill_mm3"), None if hanging is None else sum(hanging) / 2, lab.why(run) or model.origin)
+    return table
 
 
 def build(lab):
@@ -49,4 +70,4 @@ def build(lab):
         pair = [Run("generate", model, (*cover, *o)) for o in (("--gaps", "proved"), ("--strategy", "thrifty"))]
         proved = [lab.value(r, "verdict.proved") and lab.value(r, "verdict.print.proved") for r in pair]
         totals.add(model.title, float(row["ours_mm3"]), float(row["iterative_carving_mm3"]), *(lab.value(r, "totals.material_mm3") for r in pair), all(proved), model.origin)
-    return [table, totals]
+    return [table, totals, widths_table(lab)]

@@ -11,19 +11,20 @@ WIDTHS = ["external-perimeter", "perimeter", "first-layer", "infill", "solid-inf
 FILL = {"prusa": ("Internal infill", "Bridge infill"), "cura": ("FILL",), "own": ("SUPPORT", "Support", "FILL", "Internal infill")}
 
 
-def command(kind, model, output):
+def command(kind, model, output, settings=()):
+    """`settings`: "name=value", for CuraEngine only."""
     if kind == "prusa":
         widths = [x for w in WIDTHS for x in (f"--{w}-extrusion-width", "0.4")] + ["--extrusion-width", "0.4"]
         return ["prusa-slicer", "--export-gcode", model, "-o", output, "--layer-height", "0.2", "--first-layer-height", "0.2",
                 "--nozzle-diameter", "0.4", "--perimeters", "1", "--top-solid-layers", "1", "--bottom-solid-layers", "1",
                 "--fill-pattern", "lightning", "--fill-density", "15%", "--skirts", "0", "--filament-diameter", "1.75", *widths]
     if kind == "cura":
-        settings = {"infill_pattern": "lightning", "infill_line_distance": "2.6", "wall_line_count": 1, "top_layers": 1, "bottom_layers": 1, "initial_bottom_layers": 1,
-                    "layer_height": 0.2, "layer_height_0": 0.2, "line_width": 0.4, "machine_nozzle_size": 0.4, "adhesion_type": "none",
-                    "skirt_line_count": 0, "machine_width": 250, "machine_depth": 250, "machine_height": 250,
-                    "machine_center_is_zero": "false", "center_object": "false"}
+        common = {"infill_pattern": "lightning", "infill_line_distance": "2.6", "wall_line_count": 1, "top_layers": 1, "bottom_layers": 1, "initial_bottom_layers": 1,
+                  "layer_height": 0.2, "layer_height_0": 0.2, "line_width": 0.4, "machine_nozzle_size": 0.4, "adhesion_type": "none",
+                  "skirt_line_count": 0, "machine_width": 250, "machine_depth": 250, "machine_height": 250,
+                  "machine_center_is_zero": "false", "center_object": "false"}
         return ["CuraEngine", "slice", "-j", f"{CURA}/definitions/fdmprinter.def.json",
-                *(x for k, v in settings.items() for x in ("-s", f"{k}={v}")), "-o", output, "-e0", "-s", "material_diameter=1.75", "-l", model]
+                *(x for k, v in common.items() for x in ("-s", f"{k}={v}")), *(x for s in settings for x in ("-s", s)), "-o", output, "-e0", "-s", "material_diameter=1.75", "-l", model]
     return [runs.program("ribvault"), "generate", model, "-o", output, "--quiet"]
 
 
@@ -55,7 +56,7 @@ def run(run, folder):
     if code != 0:
         return {"refused": runs.why_refused(code, text)}
     os.environ["CURA_ENGINE_SEARCH_PATH"] = f"{CURA}/definitions:{CURA}/extruders"
-    code, text, cost = runs.measured(command(run.kind, placed, gcode), folder)
+    code, text, cost = runs.measured(command(run.kind, placed, gcode, run.settings), folder)
     if code not in (0, 1) or not gcode.exists():
         return {"refused": f"exit code {code}: {runs.why_refused(code, text)[-300:]}"}
     layers, volume, travels = sampling.read_gcode(gcode)

@@ -18,7 +18,7 @@ namespace {
 struct Written {
     Job job;
     std::string model, gcode, report, svg, mesh, layers, html;
-    std::optional<Unit> first_layer_height, support_radius, erosion_step, straighten_step, branch_bonus, pitch,
+    std::optional<Unit> first_layer_height, support_width, support_radius, erosion_step, straighten_step, branch_bonus, pitch,
         pillar_length;
     std::optional<Rational> overlap;
     std::string strategy = "paper", quarter_bonus;
@@ -69,7 +69,7 @@ void add_geometry(CLI::App* command, Written& w) {
     const auto group = command->add_option_group(geometry);
     add_length(group, "--layer-height", s.layer_height, "h (default 0.2)");
     add_length(group, "--first-layer-height", w.first_layer_height, "height of layer 0 (default: --layer-height)");
-    add_length(group, "--nozzle", s.nozzle, "d, the width of every track (default 0.4)");
+    add_length(group, "--nozzle", s.nozzle, "d, the width of tracks (default 0.4)");
     add_whole(group, "--perimeters", s.perimeters, "p (default 1)");
     add_whole(group, "--top-layers", s.top_layers, "solid layers under every roof (default 1)");
     add_whole(group, "--bottom-layers", s.bottom_layers, "solid layers over every floor (default 1)");
@@ -96,6 +96,7 @@ void add_geometry(CLI::App* command, Written& w) {
             "share of a track that must rest on the layer below; rho = (1 - R) d (default 0.5)")
         ->type_name("R")
         ->excludes(radius);
+    add_length(supports, "--support-width", w.support_width, "width of the supports' tracks (default: the nozzle)");
     supports
         ->add_option("--strategy", w.strategy,
                      "paper: Sections 4.1 to 4.3; thrifty: less material under the same proof (default paper)")
@@ -210,7 +211,8 @@ void refuse_without_effect(const Written& w, const CLI::App& command) {
 void complete(Written& w) {
     Settings& s = w.job.settings;
     choose_strategy(w, s);
-    s.first_layer_height = w.first_layer_height.value_or(s.layer_height);
+    s.first_layer_height = w.first_layer_height.value_or(w.imported.first_layer_height.value_or(s.layer_height));
+    s.support_width = w.support_width.value_or(w.imported.support_width.value_or(s.nozzle));
     s.support_radius = w.support_radius.value_or(s.nozzle / 2);
     if (w.overlap) {
         if (*w.overlap < 0 || *w.overlap >= 1)
@@ -297,7 +299,7 @@ std::function<int()> add_generate(CLI::App& app) {
     add_output(command, "--html", written->html, "page to look at the whole run, in one file");
     add_whole(command, "--threads", written->job.threads, "0: all processors", 0, 1024);
     command->add_flag("--quiet", written->quiet, "print errors only");
-    add_profiles(command, written->job, written->first_layer_height, written->imported);
+    add_profiles(command, written->job, written->imported);
     add_geometry(command, *written);
     add_tracks(command, written->job.tracks);
     add_placement(command, *written);

@@ -15,22 +15,22 @@ std::string text_of(const std::string& file) {
     return text;
 }
 
-Imported import(const std::string& file, Job& job, std::optional<Unit>& first_layer_height) {
+Imported import(const std::string& file, Job& job) {
     Settings& s = job.settings;
-    s.first_layer_height = 0;
+    s.first_layer_height = s.support_width = 0;
     const ImportedConfig imported = import_prusaslicer(text_of(file), file, s, job.tracks, job.printer);
-    if (s.first_layer_height > 0) first_layer_height = s.first_layer_height;
     std::string list;
     for (const std::string& key : imported.ignored) (list += list.empty() ? "" : ", ") += key;
     const std::string summary = file + ": " + std::to_string(imported.taken.size()) + " settings taken, " +
                                 std::to_string(imported.ignored.size()) + " ignored" + (list.empty() ? "" : ": ") +
                                 list;
-    return {file, summary, imported.doubts};
+    const auto named = [](Unit value) { return value > 0 ? std::optional(value) : std::nullopt; };
+    return {file, summary, imported.doubts, named(s.first_layer_height), named(s.support_width)};
 }
 
 }  // namespace
 
-void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_height, Imported& imported) {
+void add_profiles(CLI::App* command, Job& job, Imported& imported) {
     std::string names;
     for (const BuiltinProfile& profile : builtin_profiles()) (names += names.empty() ? "" : ", ") += profile.name;
     const auto printer = command
@@ -51,9 +51,9 @@ void add_profiles(CLI::App* command, Job& job, std::optional<Unit>& first_layer_
     command
         ->add_option_function<std::string>(
             "--import",
-            [&job, &first_layer_height, &imported](const std::string& file) {
+            [&job, &imported](const std::string& file) {
                 job.settings_files.emplace_back(file);
-                imported = import(file, job, first_layer_height);
+                imported = import(file, job);
             },
             "a PrusaSlicer config or bundle (.ini)")
         ->type_name("FILE")

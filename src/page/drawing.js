@@ -116,11 +116,11 @@ class LayerView {
     g.globalAlpha = 0.45; g.fillStyle = colour("hang"); g.fill(p.unsupported); g.globalAlpha = 1;
     for (const [width, path] of p.walls) {
       g.save();
-      if (width > run.nozzle) g.clip(p.cavity, "evenodd");  // tracks side by side end there; ends so wide would reach out of the shell
+      if (width > run.wall) g.clip(p.cavity, "evenodd");  // tracks side by side end there; ends so wide would reach out of the shell
       stroke(path, "track", Math.max(width, 2.2 * pixel), 0.9);
       g.restore();
     }
-    stroke(p.patches, "patch", Math.max(run.nozzle, 2.5 * pixel), 0.8);
+    stroke(p.patches, "patch", Math.max(run.wall, 2.5 * pixel), 0.8);
     stroke(p.unsupported, "hang", 1.5 * pixel);
     stroke(p.tracks, "line", Math.max(0.05, pixel));
     const marks = Object.values(run.marks(layer)).reduce((n, list) => n + list.length, 0);

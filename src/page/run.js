@@ -52,7 +52,8 @@ class VaultRun {
     this.count = all.length;
     this.name = header.input.path.split(/[\\/]/).pop();
     this.nozzle = s.nozzle_mm;
-    this.wideWall = s.nozzle_mm * (s.wall_lines || 1);  // layers files from before --wall-lines do not name it
+    this.wall = s.support_width_mm || s.nozzle_mm;  // layers files from before either option do not name it
+    this.wideWall = this.wall * (s.wall_lines || 1);
     this.rho = s.support_radius_mm;
     this.good = header.verdict.proved && header.verdict.print.proved;
     // External supports, and how they stand off the object, as Settings::reach_of_object; older layers files do not name them.
@@ -60,7 +61,7 @@ class VaultRun {
     this.emptyLayers = this.outside && s.support_gap_layers || 0;
     this.bedOnly = this.outside && s.bed_only === true;
     const gap = this.outside && s.support_gap_mm || 0;
-    this.reach = gap > 0 || this.emptyLayers > 0 || this.bedOnly ? Math.max(this.rho, gap + s.nozzle_mm / 2) : this.rho;
+    this.reach = gap > 0 || this.emptyLayers > 0 || this.bedOnly ? Math.max(this.rho, gap + this.wall / 2) : this.rho;
     /** What is proved outside is not that all has material within ρ in the layer below. */
     this.apart = this.reach > this.rho || this.emptyLayers > 0;
     this.shapes = remember(40, k => shapesFrom(all[k].geometry));
@@ -70,7 +71,7 @@ class VaultRun {
   }
   numbers(k) { return this.all[k].numbers; }
   /** How wide the wall through vertex v is printed, mm; as wall_width in vault/wall_stability.hpp. */
-  wallWidth(shapes, v) { return shapes.wide[v] ? this.wideWall : this.nozzle; }
+  wallWidth(shapes, v) { return shapes.wide[v] ? this.wideWall : this.wall; }
   top(k) { return this.tops[k]; }
   bottom(k) { return k === 0 ? 0 : this.tops[k - 1]; }
   /** Something hangs: inside (then the layer is not proved) or outside. */

@@ -87,8 +87,9 @@ function runWords(run) {
   if (run.kind === "gcode") return run.facts.words;
   const s = run.header.settings, verdict = run.header.verdict, v = verdict.external_overhangs.length, near = (verdict.layers_with_patches_in_gap || []).length;
   const how = s.propagation === "shrink" ? "thrifty" : s.straighten ? "straightened" : "not straightened";
+  const thin = run.wall < run.nozzle ? ` (supports ${run.wall} mm)` : "";
   const wide = s.wall_lines > 1 ? `, ${s.wall_lines} side by side in long or tall walls` : "";
-  return `Layers of ${s.layer_height_mm} mm, tracks of ${s.nozzle_mm} mm${wide}, ρ = ${s.support_radius_mm} mm; ` +
+  return `Layers of ${s.layer_height_mm} mm, tracks of ${s.nozzle_mm} mm${thin}${wide}, ρ = ${s.support_radius_mm} mm; ` +
     `supports ${how}, gaps ${s.gaps}, seed ${s.seed}.` +
     (v === 0 ? "" : !run.outside ? ` The outside overhangs on ${many(v, "layer")}, which no internal support can hold.`
       : run.reach > run.rho ? ` On ${many(v, "layer")} there are crevices where the gap leaves no room for a support within ρ.` : ` Something outside has no support on ${many(v, "layer")}.`) +

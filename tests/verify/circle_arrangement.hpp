@@ -78,7 +78,7 @@ inline ArcVerdict decide_by_arcs(const Layer& upper, const ArcSet& hollow_above,
                                  const ArcSet& hollow_below, const Settings& s) {
     ArcSet material = outline_set(upper.exact);
     material.difference(hollow_above);
-    const Unit r = s.nozzle / 2, rho = s.support_radius;
+    const Unit r = s.support_width / 2, rho = s.support_radius;
     for (const Segment& t : upper.tracks) material.join(stadium_set(t.a, t.b, r));
     ArcVerdict verdict;
     ArcSet external = material;

@@ -280,7 +280,7 @@ TEST_CASE("settings without a radius and missing geometry are usage errors") {
     const Layer l = layer({frame}, {});
     CHECK_THROWS_AS(verify(l, l, settings(rho, 0)), Error);
     Settings odd = how;
-    odd.nozzle = 40001;
+    odd.support_width = 40001;
     CHECK_THROWS_AS(verify(l, l, odd), Error);
     CHECK_THROWS_AS(verify_layer(1, LayerGeometry{}, view(l), how), Error);
 }

@@ -43,9 +43,10 @@ inline Layer layer(Region outline, Region cavity, std::vector<Segment> tracks = 
 
 inline LayerGeometry view(const Layer& l) { return {&l.exact, &l.cavity, l.tracks}; }
 
+/// r is of the supports; the nozzle's makes no difference here.
 inline Settings settings(Unit r, Unit rho) {
     Settings s;
-    s.nozzle = 2 * r;
+    s.support_width = 2 * r;
     s.support_radius = rho;
     return s;
 }

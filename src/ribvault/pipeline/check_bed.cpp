@@ -29,7 +29,7 @@ std::string mm(double value) {
 }  // namespace
 
 Unit reach_of_supports(const Settings& settings) {
-    return settings.outside() ? settings.support_gap + settings.pillar_length / 4 + 2 * settings.nozzle : 0;
+    return settings.outside() ? settings.support_gap + settings.pillar_length / 4 + 2 * settings.support_width : 0;
 }
 
 Box support_frame(const Mesh& mesh, const Placement& placement, const Settings& settings) {

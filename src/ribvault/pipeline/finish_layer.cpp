@@ -44,18 +44,18 @@ void LayerFinisher::prove(const SweptLayer& swept, const LayerMaterial* below, L
 void LayerFinisher::check_gap(const SweptLayer& layer, LayerReport& report) const {
     const Settings& s = job_.settings;
     const std::vector<Segment> outside = segments_of(layer.held.plan, TrackKind::external_support);
-    std::optional<Segment> near = find_too_near(*layer.material.slice->exact, outside, s.support_gap + s.nozzle / 2);
+    std::optional<Segment> near = find_too_near(*layer.material.slice->exact, outside, s.support_gap + s.support_width / 2);
     for (const auto& above : layer.material.slices_above)
-        if (!near) near = find_too_near(*above->exact, outside, s.support_gap + s.nozzle / 2);
+        if (!near) near = find_too_near(*above->exact, outside, s.support_gap + s.support_width / 2);
     report.patch_in_gap =
         s.support_gap > 0 && std::any_of(layer.patches.begin(), layer.patches.end(), [&](const auto& patches) {
-            return find_too_near(*patches, outside, s.support_gap + s.nozzle).has_value();
+            return find_too_near(*patches, outside, s.support_gap + s.support_width).has_value();
         });
     if (!near) return;
     report.verdict.supported = false;
     report.verdict.malformed = "the external support at (" + std::to_string(to_mm(near->a.x)) + ", " +
                                std::to_string(to_mm(near->a.y)) + ") mm is nearer to the object than " +
-                               (s.support_gap > 0 ? "the gap" : "half a nozzle, and would be printed into it");
+                               (s.support_gap > 0 ? "the gap" : "half its width, and would be printed into it");
 }
 
 LayerPaths LayerFinisher::lay_paths(const SweptLayer& swept, LayerOutput& output) const {

@@ -105,7 +105,7 @@ Point GapPatches::nearest_of_slice(Point p) const { return in_air(p) ? nearest_p
 /// stand out of the slice. Where the slice has no room for one, the point of the slice nearest to p, moved inwards as
 /// far as needed to keep off external supports; where they are too near on both sides, the place farthest from them.
 Point GapPatches::place_in_object(Point p) const {
-    const Unit flush = settings_.nozzle / 2 - within_edge;
+    const Unit flush = settings_.support_width / 2 - within_edge;
     Point within = p;
     for (int step = 0; step < 4; ++step) {
         if (is_within(within, flush - within_edge)) return within;
@@ -128,7 +128,7 @@ Point GapPatches::place_in_object(Point p) const {
 /// outline. Says no when the stretch is not over such a place.
 bool GapPatches::add_object(const Segment& hanging, Unit reach, bool at_edge) {
     if (air_.edges.empty()) return false;
-    const auto pieces = static_cast<std::size_t>(length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
+    const auto pieces = static_cast<std::size_t>(length(hanging) / static_cast<double>(settings_.support_width)) + 1;
     const std::size_t before = patches_.size();
     std::vector<Point> at;
     for (std::size_t k = 0; k <= pieces; ++k) {
@@ -158,7 +158,7 @@ void GapPatches::add_along_slice(const Segment& s, int depth) {
 }
 
 bool GapPatches::runs_in_object(const Segment& s) const {
-    const auto pieces = static_cast<std::size_t>(8 * length(s.b - s.a) / static_cast<double>(settings_.nozzle)) + 2;
+    const auto pieces = static_cast<std::size_t>(8 * length(s.b - s.a) / static_cast<double>(settings_.support_width)) + 2;
     for (std::size_t k = 0; k <= pieces; ++k)
         if (const Point p = division(s, k, pieces);
             in_air(p) && compare_distance(p, air_.nearest_edge(p), beside_edge) > 0)
@@ -168,7 +168,7 @@ bool GapPatches::runs_in_object(const Segment& s) const {
 
 bool GapPatches::add(const Segment& hanging, bool again) {
     const bool object_first =
-        again || !is_printed(hanging.a, settings_.nozzle / 4) || !is_printed(hanging.b, settings_.nozzle / 4);
+        again || !is_printed(hanging.a, settings_.support_width / 4) || !is_printed(hanging.b, settings_.support_width / 4);
     return (object_first && add_object(hanging, settings_.reach_of_object(), again)) || add_support(hanging) ||
            (!object_first && add_object(hanging, settings_.reach_of_object()));
 }
@@ -188,7 +188,7 @@ std::optional<Point> GapPatches::place_for_wall(Point p, Unit reach, double* bey
 }
 
 bool GapPatches::add_support(const Segment& hanging) {
-    const auto pieces = static_cast<std::size_t>(4 * length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
+    const auto pieces = static_cast<std::size_t>(4 * length(hanging) / static_cast<double>(settings_.support_width)) + 1;
     std::vector<Point> at;
     for (std::size_t k = 0; k <= pieces; ++k) {
         const std::optional<Point> place = place_for_wall(division(hanging, k, pieces), settings_.support_radius);
@@ -207,11 +207,11 @@ bool GapPatches::add_support(const Segment& hanging) {
 }
 
 bool GapPatches::add_under_rim(const HangingStretch& hanging, const std::vector<Lane>& material) {
-    const Unit reach = settings_.nozzle / 2 + settings_.support_radius - sampling_room;
+    const Unit reach = settings_.support_width / 2 + settings_.support_radius - sampling_room;
     std::vector<Point> open;
     bool all_in_reach = true;
     // Piece by piece: where nothing may stand within reach of any of it, its points need not be looked at.
-    for (const HangingStretch& piece : pieces_of(hanging, settings_.nozzle)) {
+    for (const HangingStretch& piece : pieces_of(hanging, settings_.support_width)) {
         const Disc disc = disc_around(piece);
         double beyond = 0;
         if (!place_for_wall(disc.centre, reach, &beyond) && beyond > disc.radius) {
@@ -243,16 +243,16 @@ bool GapPatches::add_under_rim(const HangingStretch& hanging, const std::vector<
 void GapPatches::add_to_object(const Segment& hanging) {
     if (walls_below_gap_ && !below_gap_) below_gap_.emplace(*walls_below_gap_);
     // In pieces: part of a stretch may hang beyond the object's reach.
-    const auto pieces = static_cast<std::size_t>(length(hanging) / static_cast<double>(settings_.nozzle)) + 1;
+    const auto pieces = static_cast<std::size_t>(length(hanging) / static_cast<double>(settings_.support_width)) + 1;
     for (std::size_t k = 0; k < pieces; ++k) {
         const Segment piece{division(hanging, k, pieces), division(hanging, k + 1, pieces)};
         const Point middle{(piece.a.x + piece.b.x) / 2, (piece.a.y + piece.b.y) / 2};
         const auto everywhere = [&](const auto& is) { return is(piece.a) && is(middle) && is(piece.b); };
-        const bool printed = everywhere([&](Point p) { return is_printed(p, settings_.nozzle / 4); });
+        const bool printed = everywhere([&](Point p) { return is_printed(p, settings_.support_width / 4); });
         if (printed && everywhere([&](Point p) { return supports_reach_rim(p); })) continue;
         // The rim of what hangs may be within the slice's reach though the centre line is not.
         if (!add_object(piece, settings_.reach_of_object(), printed))
-            add_object(piece, settings_.reach_of_object() + settings_.nozzle / 2);
+            add_object(piece, settings_.reach_of_object() + settings_.support_width / 2);
     }
 }
 
@@ -260,7 +260,7 @@ void GapPatches::add_to_object(const Segment& hanging) {
 bool GapPatches::supports_reach_rim(Point p) const {
     if (!below_gap_ || below_gap_->edges.empty()) return false;
     const Edge edge = edge_beside(p);
-    const Point rim = p + (edge.shifted(-settings_.nozzle / 2) - edge.foot);
+    const Point rim = p + (edge.shifted(-settings_.support_width / 2) - edge.foot);
     return below_gap_->holds(rim) ||
            compare_distance(rim, below_gap_->nearest_edge(rim), settings_.support_radius - 4 * settings_.slack) <= 0;
 }
@@ -271,7 +271,7 @@ bool GapPatches::is_printed(Point p, Unit beyond) const {
     if (air_.edges.empty()) return false;
     const Point foot = nearest_of_slice(p);
     bool printed = false;
-    tracks_.segments().visit(bounding_box({foot, foot}, 2 * settings_.nozzle), [&](std::uint32_t k) {
+    tracks_.segments().visit(bounding_box({foot, foot}, 2 * settings_.support_width), [&](std::uint32_t k) {
         const PlanTracks::Place place = tracks_.place(k);
         const Unit width = plan_.tracks[place.track].paths[place.path].width;
         printed = printed || compare_distance(foot, tracks_.segments().segments()[k], width / 2 + beyond) <= 0;

@@ -68,7 +68,7 @@ private:
         Point shifted(Unit by) const;  ///< the foot, so far inwards
     };
 
-    Unit apart() const { return settings_.support_gap + settings_.nozzle; }
+    Unit apart() const { return settings_.support_gap + settings_.support_width; }
     bool in_air(Point p) const { return air_.holds(p); }
     Edge edge_beside(Point p) const;
     double room_around(const Segment& patch) const;

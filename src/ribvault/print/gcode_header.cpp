@@ -221,6 +221,7 @@ std::string gcode_header(const Settings& settings, const TrackSettings& tracks, 
     comment("first_layer_height", decimal_text(to_mm(settings.first_layer_height)));
     comment("nozzle_diameter", decimal_text(to_mm(settings.nozzle)));
     comment("first_layer_extrusion_width", decimal_text(to_mm(tracks.width_on(0, settings.nozzle))));
+    comment("infill_extrusion_width", decimal_text(to_mm(settings.support_width)));
     comment("filament_diameter", decimal_text(printer.filament_diameter));
     comment("perimeters", std::to_string(settings.perimeters));
     comment("top_solid_layers", std::to_string(settings.top_layers));

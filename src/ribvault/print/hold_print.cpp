@@ -212,7 +212,7 @@ private:
                 if (out_degree(from, forest_) < 2 && !forest_[from].root) continue;
                 // A gap takes the first width of the wall at most.
                 const Point a = forest_[from].at, b = forest_[to].at;
-                const double l = length(b - a), width = static_cast<double>(settings_.nozzle);
+                const double l = length(b - a), width = static_cast<double>(settings_.support_width);
                 if (!hanging.has({a, part_way(a, b, l > width ? width / l : 1)})) continue;
                 forest_[*e].to_junction = true;
                 ++held_.closed_gaps;

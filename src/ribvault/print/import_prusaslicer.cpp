@@ -214,6 +214,14 @@ const std::map<std::string, Field>& fields() {
                  if (width > 2 * to.s.nozzle) throw Ignored{"more than twice the nozzle"};
                  to.t.first_layer_width = width;
              }},
+            {"infill_extrusion_width",
+             [](Target to, const std::string& v) {
+                 const Unit width = length_in(v);
+                 if (width == 0) throw Ignored{"0: left to the slicer"};
+                 if (2 * width < to.s.nozzle) throw Ignored{"less than half the nozzle"};
+                 if (width > to.s.nozzle) throw Ignored{"more than the nozzle"};
+                 to.s.support_width = width;
+             }},
             {"seam_position",
              [](Target to, const std::string& v) {
                  if (v == "aligned" || v == "rear")
@@ -350,7 +358,7 @@ ImportedConfig import_prusaslicer(std::string_view text, const std::string& name
         Settings s;
         TrackSettings t;
         PrinterSettings p;
-        s.nozzle = settings.nozzle, s.support_radius = s.erosion_step = s.straighten_step = s.nozzle / 2;
+        s.nozzle = s.support_width = settings.nozzle, s.support_radius = s.erosion_step = s.straighten_step = s.nozzle / 2;
         s.branch_bonus_length = 2 * s.nozzle, s.pillar_length = 10 * s.nozzle, s.sampling_pitch = s.nozzle / 4;
         try {
             field({s, t, p}, value);

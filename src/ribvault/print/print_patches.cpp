@@ -40,7 +40,7 @@ PrintPatches::PrintPatches(LayerPlan plan, const Cavity* beside, const Region* w
 }
 
 Unit PrintPatches::lay(LayerPlan& plan) const {
-    return lay_patches(patches_, tracks_, plan, settings_.nozzle, [&](TrackKind kind, const Segment& way) {
+    return lay_patches(patches_, tracks_, plan, settings_.support_width, [&](TrackKind kind, const Segment& way) {
         if (kind == TrackKind::external_support) return may_stand_outside(way);
         return !gap_patches_ || gap_patches_->runs_in_object(way);
     });
@@ -68,7 +68,7 @@ Point PrintPatches::nearest_material(Point p, std::size_t patches) const {
 
 // The tracks and patches that come near a stretch; the object's are `wider` by what it holds up farther than ρ.
 std::vector<Lane> PrintPatches::material_near(const Segment& stretch, Unit wider, bool of_supports) const {
-    const Unit reach = 2 * settings_.nozzle + 2 * settings_.support_radius + wider;
+    const Unit reach = 2 * settings_.support_width + 2 * settings_.support_radius + wider;
     std::vector<Lane> lanes;
     const auto add = [&](const Segment& centre, Unit width, TrackKind kind) {
         if (of_supports && kind != TrackKind::external_support) return;
@@ -81,7 +81,7 @@ std::vector<Lane> PrintPatches::material_near(const Segment& stretch, Unit wider
     });
     for (const Patch& patch : patches_)
         if (boxes_near(stretch, patch.segment, static_cast<double>(reach)))
-            add(patch.segment, settings_.nozzle, patch.kind);
+            add(patch.segment, settings_.support_width, patch.kind);
     return lanes;
 }
 
@@ -89,7 +89,7 @@ std::vector<Lane> PrintPatches::material_near(const Segment& stretch, Unit wider
 // the outline only.
 std::optional<PlacedDot> PrintPatches::place(const HangingTrack& hanging) const {
     if (gap_patches_ && !hanging.inside) return std::nullopt;
-    return place_dot(hanging.stretch_of_lane(), material_near(hanging.place()), settings_.nozzle,
+    return place_dot(hanging.stretch_of_lane(), material_near(hanging.place()), settings_.support_width,
                      settings_.support_radius);
 }
 
@@ -140,7 +140,7 @@ void PrintPatches::add_support(const HangingTrack& hanging, bool late) {
     const std::vector<Lane> material = material_under(hanging);
     if (!late) {
         const std::optional<PlacedDot> dot =
-            place_dot(hanging.stretch_of_lane(), material, settings_.nozzle, settings_.support_radius);
+            place_dot(hanging.stretch_of_lane(), material, settings_.support_width, settings_.support_radius);
         if (dot && !dot->needed) return;
         if (const Segment s{dot ? dot->at : Point{}, dot ? dot->at : Point{}}; dot && may_stand_outside(s)) {
             patches_.push_back({s, TrackKind::external_support});

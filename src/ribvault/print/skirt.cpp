@@ -75,7 +75,7 @@ std::vector<ToolPath> skirt_and_brim(const Region& object, const Settings& setti
     const Region outline = supports.empty()
                                ? object
                                : clip(ClipperLib::ctUnion, object,
-                                      offset(supports, static_cast<double>(settings.nozzle) / 2, arc_tolerance));
+                                      offset(supports, static_cast<double>(settings.support_width) / 2, arc_tolerance));
     const Unit w = tracks.width_on(0, settings.nozzle);
     const double width = static_cast<double>(w);
     const int brim = brim_loops(w, tracks);

@@ -27,7 +27,7 @@ struct Branch {
 /// that goes straight on, its far rim too, is within r + ρ of the bend if that is at most √((r + ρ)² - r²), however
 /// long the branch is. 0: nowhere, as with a smaller ρ patches would take more than the branches' own tracks.
 double farthest_bend_of(const Settings& s) {
-    const double width = static_cast<double>(s.nozzle), r = width / 2,
+    const double width = static_cast<double>(s.support_width), r = width / 2,
                  reach = r + static_cast<double>(s.support_radius);
     const double farthest = 0.7 * width;
     return farthest * farthest > reach * reach - r * r ? 0 : farthest;
@@ -53,7 +53,7 @@ struct RootedForest {
 
     RootedForest(const SupportForest& f, const Settings& settings)
         : forest(f),
-          width(settings.nozzle),
+          width(settings.support_width),
           farthest_bend(settings.gaps == Gaps::proved ? farthest_bend_of(settings) : 0),
           parent(num_vertices(f), no_vertex),
           edge_length(num_vertices(f), 0),
@@ -313,7 +313,7 @@ void append_support_paths(const SupportForest& forest, const Settings& settings,
         hang_from_root(f, v, plan.layer);
         if (!prints_centre_line(forest[v], settings)) continue;
         if (out_degree(v, forest) == 0)
-            plan.tracks.push_back({{{kind_of(forest[v]), settings.nozzle, false, {f.at(v)}}}, Entry::fixed, no_stop});
+            plan.tracks.push_back({{{kind_of(forest[v]), settings.support_width, false, {f.at(v)}}}, Entry::fixed, no_stop});
         else
             TreePaths(f, v, plan).append(settings.gaps != Gaps::paper);
     }

@@ -17,7 +17,7 @@ namespace ribvault {
 /// A root with several walls is a junction too: but with Gaps::paper its two longest ways are one path, from tip to
 /// tip, unless both have parts on their first layer.
 ///
-/// Only the first path runs through a junction. A later branch starts one track width (`settings.nozzle`) short of it,
+/// Only the first path runs through a junction. A later branch starts one track width (`settings.support_width`) short of it,
 /// measured along the branch, unless its first edge has first_layer or to_junction set: then it starts at the junction.
 /// A branch that is no longer than its gap is not printed and counts as gap. A junction that lies inside such a gap is
 /// itself not printed; a branch from there starts where it is one width away, along the tree, from the nearest printed

@@ -100,8 +100,8 @@ void append_wide_walls(const SupportForest& forest, const Region& cavity, const 
     if (lines.empty()) return;
     const PointLocation location(edges_of(cavity), units_per_mm);
     for (int twice = settings.wall_lines - 1; twice > 0; twice -= 2)
-        for (Contour& outline : around(lines, 0.5 * twice * static_cast<double>(settings.nozzle)))
-            append_outline(std::move(outline), cavity, location, settings.nozzle, plan);
+        for (Contour& outline : around(lines, 0.5 * twice * static_cast<double>(settings.support_width)))
+            append_outline(std::move(outline), cavity, location, settings.support_width, plan);
 }
 
 }  // namespace ribvault

@@ -41,7 +41,7 @@ void append_tracks(std::string& svg, const SupportForest& forest, const Region& 
     for (auto [v, end] = vertices(forest); v != end; ++v) widths.insert(wall_width(forest[*v], settings));
     for (const Unit width : widths) {
         std::string style(track_style);
-        if (width > settings.nozzle) {
+        if (width > settings.support_width) {
             const std::string id = "cavity" + std::to_string(layer);  // a contact sheet holds several layers
             svg.append("<clipPath id=\"" + id + "\"><path clip-rule=\"evenodd\" d=\"" + region_data(cavity) +
                        "\"/></clipPath>\n");
@@ -82,19 +82,19 @@ void append_triangle(std::string& data, double x, double y, double radius) {
     data.append("h").append(svg_number(-2 * half)).append("z");
 }
 
-Marks marks_of(const SupportForest& forest, double nozzle, LayerDrawing& d) {
+Marks marks_of(const SupportForest& forest, double width, LayerDrawing& d) {
     Marks marks;
     for (auto [v, end] = vertices(forest); v != end; ++v) {
         const Point p = forest[*v].at;
         const auto valence = out_degree(*v, forest);
         if (valence == 0) {
-            append_diamond(marks.dots, to_mm(p.x), -to_mm(p.y), 0.45 * nozzle);
+            append_diamond(marks.dots, to_mm(p.x), -to_mm(p.y), 0.45 * width);
             ++d.dots;
         } else if (forest[*v].root) {
             append_dot(marks.roots, p);
             ++d.roots;
         } else if (valence == 1) {
-            append_triangle(marks.tips, to_mm(p.x), -to_mm(p.y), 0.45 * nozzle);
+            append_triangle(marks.tips, to_mm(p.x), -to_mm(p.y), 0.45 * width);
             ++d.tips;
         }
         if (valence >= 3) {
@@ -185,16 +185,16 @@ LayerDrawing draw_layer(const Slice& slice, const Region& cavity, const SupportF
         if (forest[*v].outside) d.box.add(forest[*v].at);
     d.support_length_mm = length(forest) / units_per_mm;
 
-    const double nozzle = to_mm(settings.nozzle);
-    const Marks marks = marks_of(forest, nozzle, d);
+    const double width = to_mm(settings.support_width);
+    const Marks marks = marks_of(forest, width, d);
     append_element(d.marks, shell_style, region_data(slice.rounded) + region_data(cavity));
     d.overhang = below != nullptr;
     if (below) append_overhang(d.marks, slice.rounded, below->rounded, settings.support_radius, d.layer);
     append_tracks(d.marks, forest, cavity, settings, d.layer);
     append_element(d.marks, unsupported_style, region_data(unsupported));
     append_element(d.marks, line_style, track_data(forest));
-    append_element(d.marks, root_style, marks.roots, 0.6 * nozzle);
-    append_element(d.marks, junction_style, marks.junctions, 0.8 * nozzle);
+    append_element(d.marks, root_style, marks.roots, 0.6 * width);
+    append_element(d.marks, junction_style, marks.junctions, 0.8 * width);
     append_element(d.marks, tip_style, marks.tips);
     append_element(d.marks, dot_style, marks.dots);
     return d;

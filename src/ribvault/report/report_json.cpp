@@ -47,6 +47,7 @@ Json settings(const Settings& s) {
     return {{"layer_height_mm", to_mm(s.layer_height)},
             {"first_layer_height_mm", to_mm(s.first_layer_height)},
             {"nozzle_mm", to_mm(s.nozzle)},
+            {"support_width_mm", to_mm(s.support_width)},
             {"support_radius_mm", to_mm(s.support_radius)},
             {"perimeters", s.perimeters},
             {"top_layers", s.top_layers},

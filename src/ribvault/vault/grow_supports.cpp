@@ -42,13 +42,13 @@ struct Later {
 };
 using Queue = std::priority_queue<Candidate, std::vector<Candidate>, Later>;
 
-/// The contours of those pieces of a region in which a disc of radius 3/4 d has room.
-std::vector<Segment> wide_pieces(const Region& region, Unit nozzle) {
+/// The contours of those pieces of a region in which a disc of radius 3/4 of a support's width has room.
+std::vector<Segment> wide_pieces(const Region& region, Unit width) {
     std::vector<Segment> wide;
     for (const Region& piece : connected_pieces(region)) {
         const Box box = bounding_box(piece);
-        if (2 * std::min(box.hi.x - box.lo.x, box.hi.y - box.lo.y) < 3 * nozzle ||
-            offset(piece, -0.75 * static_cast<double>(nozzle)).empty())
+        if (2 * std::min(box.hi.x - box.lo.x, box.hi.y - box.lo.y) < 3 * width ||
+            offset(piece, -0.75 * static_cast<double>(width)).empty())
             continue;
         const std::vector<Segment> border = edges_of(piece);
         wide.insert(wide.end(), border.begin(), border.end());
@@ -63,12 +63,12 @@ public:
         : settings_(settings),
           boundary_(boundary),
           seed_(seed),
-          radius_(static_cast<double>(settings.nozzle / 2 + settings.support_radius)),
+          radius_(static_cast<double>(settings.support_width / 2 + settings.support_radius)),
           slack_(static_cast<double>(settings.slack)),
           unsupported_(unsupported, settings),
           supports_(std::move(forest), boundary.location.box(), boundary, settings) {
         if (settings.branch_bonus && settings.quarter_bonus == QuarterBonus::narrow)
-            wide_ = PointLocation(wide_pieces(unsupported, settings.nozzle), units_per_mm);
+            wide_ = PointLocation(wide_pieces(unsupported, settings.support_width), units_per_mm);
     }
 
     GrownSupports run() {

@@ -29,7 +29,7 @@ GrowingSupports::GrowingSupports(SupportForest forest, const Box& cavity_box, co
     : forest_(std::move(forest)),
       boundary_(boundary),
       settings_(settings),
-      grid_(cavity_box, settings.nozzle, settings.nozzle / 2 + settings.support_radius) {
+      grid_(cavity_box, settings.support_width, settings.support_width / 2 + settings.support_radius) {
     inherited_vertices_ = num_vertices(forest_);
     for (auto [e, end] = edges(forest_); e != end; ++e) enter(source(*e, forest_), target(*e, forest_));
     for (auto [v, end] = vertices(forest_); v != end; ++v)
@@ -128,7 +128,7 @@ std::optional<std::uint32_t> GrowingSupports::nearest_wall(Point p, const Square
     std::optional<std::uint32_t> wall;
     const double farthest = std::sqrt(limit.value());
     // Searched in growing squares.
-    for (double reach = std::min(farthest, 2.0 * static_cast<double>(settings_.nozzle));; reach *= 2) {
+    for (double reach = std::min(farthest, 2.0 * static_cast<double>(settings_.support_width));; reach *= 2) {
         grid_.visit(around(p, reach), [&](std::uint32_t w) {
             if (!walls_[w].alive || (walls_[w].a < own.size() && own[walls_[w].a])) return;
             const SquaredDistance d = squared_distance(p, segment(w));

@@ -125,7 +125,7 @@ class Taper {
 public:
     Taper(const SupportForest& forest, const Settings& settings)
         : forest_(forest), back_(num_vertices(forest), 0), towards_root_(num_vertices(forest)) {
-        const double by = 0.5 * static_cast<double>((settings.wall_lines - 1) * settings.nozzle);
+        const double by = 0.5 * static_cast<double>((settings.wall_lines - 1) * settings.support_width);
         std::vector<double> longest(num_vertices(forest), 0);
         std::vector<char> done(num_vertices(forest), 0);
         std::vector<std::size_t> walls(num_vertices(forest)), tips;

@@ -10,7 +10,7 @@ namespace ribvault {
 /// How wide the wall through this vertex is printed, in lattice units: wide trees as settings.wall_lines tracks side by
 /// side (print/wide_walls.hpp), all others as one. The same for all vertices of a tree.
 inline Unit wall_width(const SupportVertex& v, const Settings& settings) {
-    return v.wide ? settings.wall_lines * settings.nozzle : settings.nozzle;
+    return v.wide ? settings.wall_lines * settings.support_width : settings.support_width;
 }
 
 /// Where a wall sways most easily. A place of a wall is held from below by what the wall stands on and from the side by

@@ -132,15 +132,15 @@ std::optional<Unsupported> decide(const CoverProblem& problem, const std::vector
 
 LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const LayerGeometry& lower,
                           const Settings& settings) {
-    if (settings.support_radius <= 0 || settings.nozzle <= 0 || settings.nozzle % 2 != 0)
+    if (settings.support_radius <= 0 || settings.support_width <= 0 || settings.support_width % 2 != 0)
         throw Error(ErrorKind::usage,
-                    "the verifier needs a positive support radius and a nozzle diameter of an even "
+                    "the verifier needs a positive support radius and a width of supports of an even "
                     "number of lattice units; run Settings::check first");
     if (!upper.outline || !upper.cavity || !lower.outline || !lower.cavity)
         throw Error(ErrorKind::usage, "the verifier needs the outline and the cavity of both layers (layer " +
                                           std::to_string(upper_layer) + "); pass an empty cavity where there is none");
     const CGAL::Protect_FPU_rounding<true> upward;
-    const double rho = static_cast<double>(settings.support_radius), r = static_cast<double>(settings.nozzle / 2);
+    const double rho = static_cast<double>(settings.support_radius), r = static_cast<double>(settings.support_width / 2);
     LayerVerdict verdict;
     verdict.layer = upper_layer;
     std::vector<Vertex> vertices;
