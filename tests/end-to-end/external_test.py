@@ -71,6 +71,32 @@ class External(unittest.TestCase):
                 here = x, y
         self.assertGreater(supports, 50)
 
+    def test_what_is_asked_of_supports_outside_changes_nothing_inside(self):
+        def inside(*arguments):
+            done = self.run_program("generate", CUBE, "--report", "a.json", "--strategy", "thrifty", *arguments)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            totals = json.loads((self.folder / "a.json").read_text())["totals"]
+            return [totals[k] for k in ("support_volume_mm3", "patches", "travels")]
+        alone = inside()
+        for rules in ([], ["--bed-only"], ["--support-gap", "0.3"], ["--support-gap-layers", "1"]):
+            self.assertEqual(inside("--support", "both", *rules), alone, rules)
+        narrow = ["--support-width", "0.3"]  # a gap within what the object holds up
+        self.assertEqual(inside("--support", "both", "--support-gap", "0.04", *narrow), inside(*narrow))
+
+    def test_corners_of_the_object_are_printed_however_narrow_supports_are(self):
+        funnel = self.folder / "funnel.off"  # a plate that grows wider upwards
+        corners = [(x * w, y * w, z) for z, w in ((0, 4), (1, 4), (5, 10)) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        sides = [(a, b, b + 4, a + 4) for k in (0, 4) for a, b in ((k, k + 1), (k + 1, k + 2), (k + 2, k + 3), (k + 3, k))]
+        faces = [(3, 2, 1, 0), *sides, (8, 9, 10, 11)]
+        funnel.write_text("\n".join(["OFF", f"{len(corners)} {len(faces)} 0", *(" ".join(map(str, c)) for c in corners), *(" ".join(map(str, (4, *s))) for s in faces), ""]))
+        patches = []
+        for width in ("0.4", "0.28"):
+            done = self.run_program("generate", funnel, "--report", "a.json", "--support", "external", "--support-gap", "0.1", "--support-gap-layers", "1",
+                                    "--support-width", width)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            patches.append(json.loads((self.folder / "a.json").read_text())["totals"]["patches"])
+        self.assertLess(patches[1], 2 * patches[0] + 10)
+
     def test_supports_that_come_off_are_judged_by_the_same_rules(self):
         for rules in (["--support-gap-layers", "1"], ["--support-gap", "0.3", "--support-gap-layers", "2"], ["--support-gap", "0.2", "--bed-only"]):
             done = self.run_program("generate", self.table, "-o", "a.gcode", "--support", "external", *rules)

@@ -135,6 +135,12 @@ class Options(unittest.TestCase):
             self.assertIn(next(a for a in arguments if a.startswith("--") and a != "--strategy"), self.refused("generate", CUBE, *arguments))
         self.accepted("--strategy", "thrifty", "--no-shrink", "--no-straighten")
 
+    def test_supports_must_hold_up_the_shell_and_themselves(self):
+        for arguments in (["--support-width", "0.26", "--overlap", "0.8"], ["--support-width", "0.3", "--support-radius", "0.31"]):
+            self.assertIn("0.28 mm" if "--overlap" in arguments else "--support-radius", self.refused("generate", CUBE, *arguments))
+        self.accepted("--support-width", "0.28", "--overlap", "0.8")
+        self.accepted("--support-width", "0.3", "--support-radius", "0.3")
+
     def test_a_command_that_does_not_exist(self):
         self.assertIn("'bunny.stl'", self.refused("bunny.stl"))
         self.assertIn("generate, verify and page", self.refused())

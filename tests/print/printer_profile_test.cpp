@@ -182,6 +182,30 @@ TEST_CASE("what a PrusaSlicer config says and cannot be, or names and does not h
     CHECK(s.support_width == 35000);
     CHECK(ignored("perimeters = 2\nperimeter_speed = 0\nfirst_layer_height = 0\n") ==
           "first_layer_height (0: as the other layers); perimeter_speed (0: left to the slicer); ");
+    const auto refused = [&](const std::string& text) -> std::string {
+        try {
+            import_prusaslicer(text, "c.ini", s, t, p);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "taken";
+    };
+    CHECK(refused("colour = blue\n") == "c.ini: no setting that we know; is it a PrusaSlicer config or bundle?");
+    CHECK(
+        refused("[presets]\nprint = A\nprinter = B\n") ==
+        "c.ini: no setting of it can be taken: [printer:B] (named, but not in the file), [print:A] (named, but not in "
+        "the file)");
+    CHECK(refused("bed_shape = 0x0,200x0,100x200\n") == "taken");  // in part
+    CHECK(p.bed_x == Approx(200 / 3.0).margin(0.01));  // the square about (100, 100) under the sides
+    import_prusaslicer("bed_shape = 0x0,200x0,200x100,100x100,100x200,0x200\n", "c.ini", s, t, p);
+    CHECK_THROWS_WITH(check_printer(p), Catch::Contains("no middle to print on"));
+    CHECK(ignored("machine_limits_usage = emit_to_gcode\ngcode_flavor = smoothie\nperimeters = 1\n") ==
+          "gcode_flavor (we write for Marlin, Klipper and RepRapFirmware); machine_limits_usage (each flavour has its "
+          "own "
+          "words for limits); ");
+    CHECK_FALSE(p.write_limits);
+    CHECK(ignored("machine_limits_usage = emit_to_gcode\ngcode_flavor = klipper\n").empty());
+    CHECK(p.write_limits);
     t.brim_width = 0;
     import_prusaslicer("brim_type = no_brim\nbrim_width = 5\nname = mine\n", "c.ini", s, t, p);
     CHECK(t.brim_width == 0);

@@ -84,10 +84,11 @@ std::string millimetres(Unit length) {
 
 Unit parse_length(std::string_view text, std::string_view what) {
     const Rational units = parse_rational(text, what) * units_per_mm;
-    if (units.get_den() != 1 || !units.get_num().fits_slong_p() || abs(units) > lattice_bound)
-        throw Error(ErrorKind::usage,
-                    std::string(what) + ": '" + std::string(text) +
-                        "' mm does not lie on the 10 nm lattice; give at most five decimals and at most 10 m");
+    const auto refuse = [&](const char* why) {
+        throw Error(ErrorKind::usage, std::string(what) + ": '" + std::string(text) + "' mm " + why);
+    };
+    if (abs(units) > lattice_bound) refuse("is more than 10 m");
+    if (units.get_den() != 1) refuse("does not lie on the 10 nm lattice; give at most five decimals");
     return units.get_num().get_si();
 }
 

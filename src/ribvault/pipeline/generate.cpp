@@ -110,7 +110,7 @@ private:
                           millimetres(width) + " mm): such tracks hardly stick to what is below");
         };
         warn_if_higher("the first layer is ", settings.first_layer_height, job_.tracks.width_on(0, settings.nozzle));
-        if (slicer.layer_count() > 1) warn_if_higher("a layer is ", settings.layer_height, settings.nozzle);
+        if (slicer.layer_count() > 1) warn_if_higher("a layer is ", settings.layer_height, settings.support_width);
         if (report_.input.closed()) return;
         job_.warn(job_.model.string() + ": the mesh is not closed (" + std::to_string(report_.input.boundary_edges) +
                   " boundary edges); its slices are closed over gaps up to --max-gap");

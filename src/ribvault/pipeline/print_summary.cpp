@@ -54,9 +54,9 @@ void describe_verdict(std::string& text, const PrintReport& r) {
         if (r.support_gap_mm > 0 || r.support_gap_layers > 0)
             append_formatted(
                 text,
-                "           across gaps: within %.5g mm and half a nozzle of the object, and with %d layers left "
+                "           across gaps: within %.5g mm and half a nozzle of the object, and with %d layer%s left "
                 "empty under it\n",
-                r.support_gap_mm, r.support_gap_layers);
+                r.support_gap_mm, r.support_gap_layers, r.support_gap_layers == 1 ? "" : "s");
         if (r.bed_only)
             append_formatted(text,
                              "           with supports that lie on supports alone, down to the bed (--bed-only)\n");

@@ -12,10 +12,11 @@ std::string many(long long count, const char* what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-/// Where a list is that is too long for the summary.
-std::string where_listed(const Job& job) {
+/// Where a list is that is too long for the summary; `on_page`: the page has it too.
+std::string where_listed(const Job& job, bool on_page) {
     if (job.report) return "in the report";
-    return job.html ? "on the page" : "with --report FILE or --html FILE";
+    if (on_page && job.html) return "on the page";
+    return on_page ? "with --report FILE or --html FILE" : "with --report FILE";
 }
 
 /// Is the layer refuted for its slices, which the proof cannot speak of? It says itself of which layer they are.
@@ -53,8 +54,8 @@ void describe_verdict(std::string& text, const RunReport& r, const Job& job) {
         append_formatted(
             text,
             "          through the layers left empty: outside, the object lies on a support, on itself or on the bed "
-            "at most %d layers farther down\n",
-            r.settings.support_gap_layers);
+            "at most %s farther down\n",
+            many(r.settings.support_gap_layers, "layer").c_str());
     if (r.verdict.proved && r.settings.bed_only)
         append_formatted(text,
                          "          on the bed alone: external supports stand on each other, nowhere on the object\n");
@@ -63,7 +64,7 @@ void describe_verdict(std::string& text, const RunReport& r, const Job& job) {
             text,
             "warning   on %zu layers there are crevices where the gap leaves no room for a support within rho; "
             "listed %s\n",
-            r.verdict.external_overhangs.size(), where_listed(job).c_str());
+            r.verdict.external_overhangs.size(), where_listed(job, true).c_str());
     if (!r.verdict.layers_with_patches_in_gap.empty())
         append_formatted(
             text,
@@ -108,7 +109,7 @@ void describe_verdict(std::string& text, const RunReport& r, const Job& job) {
                          "warning   the outside overhangs on %s (at most %s mm2 in all, most on layer %d):\n"
                          "          no internal support can hold that (--support both does); listed %s\n",
                          many(static_cast<long long>(r.verdict.external_overhangs.size()), "layer").c_str(),
-                         fixed(area, area < 10 ? 3 : 0).c_str(), worst->layer, where_listed(job).c_str());
+                         fixed(area, area < 10 ? 3 : 0).c_str(), worst->layer, where_listed(job, true).c_str());
     }
     if (const std::vector<int>& over = r.verdict.layers_over_narrow_places; !over.empty())
         append_formatted(
@@ -161,7 +162,7 @@ std::string summary(const RunReport& r, const Job& job) {
         append_formatted(text,
                          "warning   %ld places are too narrow for a track and not printed (%.2f mm2 in all); "
                          "layers listed %s\n",
-                         r.totals.thin_places, r.totals.thin_area_mm2, where_listed(job).c_str());
+                         r.totals.thin_places, r.totals.thin_area_mm2, where_listed(job, false).c_str());
     long empty = 0, under = 0;  // layers without a track, and those of them that have one with tracks above
     for (const LayerReport& layer : r.layers) {
         if (layer.empty)
@@ -179,7 +180,7 @@ std::string summary(const RunReport& r, const Job& job) {
     }
     if (r.totals.closings > 0)
         append_formatted(text, "warning   %ld gaps in open contours were closed; listed %s\n", r.totals.closings,
-                         where_listed(job).c_str());
+                         where_listed(job, false).c_str());
     if (r.totals.layers_with_slivers_removed > 0)
         append_formatted(
             text, "warning   slits and slivers narrower than 0.4 um, as between parts that touch, are gone from %s\n",

@@ -168,7 +168,7 @@ bool GapPatches::runs_in_object(const Segment& s) const {
 
 bool GapPatches::add(const Segment& hanging, bool again) {
     const bool object_first =
-        again || !is_printed(hanging.a, settings_.support_width / 4) || !is_printed(hanging.b, settings_.support_width / 4);
+        again || !is_printed(hanging.a, settings_.nozzle / 4) || !is_printed(hanging.b, settings_.nozzle / 4);
     return (object_first && add_object(hanging, settings_.reach_of_object(), again)) || add_support(hanging) ||
            (!object_first && add_object(hanging, settings_.reach_of_object()));
 }
@@ -248,11 +248,11 @@ void GapPatches::add_to_object(const Segment& hanging) {
         const Segment piece{division(hanging, k, pieces), division(hanging, k + 1, pieces)};
         const Point middle{(piece.a.x + piece.b.x) / 2, (piece.a.y + piece.b.y) / 2};
         const auto everywhere = [&](const auto& is) { return is(piece.a) && is(middle) && is(piece.b); };
-        const bool printed = everywhere([&](Point p) { return is_printed(p, settings_.support_width / 4); });
+        const bool printed = everywhere([&](Point p) { return is_printed(p, settings_.nozzle / 4); });
         if (printed && everywhere([&](Point p) { return supports_reach_rim(p); })) continue;
         // The rim of what hangs may be within the slice's reach though the centre line is not.
         if (!add_object(piece, settings_.reach_of_object(), printed))
-            add_object(piece, settings_.reach_of_object() + settings_.support_width / 2);
+            add_object(piece, settings_.reach_of_object() + settings_.nozzle / 2);
     }
 }
 
@@ -260,7 +260,7 @@ void GapPatches::add_to_object(const Segment& hanging) {
 bool GapPatches::supports_reach_rim(Point p) const {
     if (!below_gap_ || below_gap_->edges.empty()) return false;
     const Edge edge = edge_beside(p);
-    const Point rim = p + (edge.shifted(-settings_.support_width / 2) - edge.foot);
+    const Point rim = p + (edge.shifted(-settings_.nozzle / 2) - edge.foot);
     return below_gap_->holds(rim) ||
            compare_distance(rim, below_gap_->nearest_edge(rim), settings_.support_radius - 4 * settings_.slack) <= 0;
 }
@@ -271,7 +271,7 @@ bool GapPatches::is_printed(Point p, Unit beyond) const {
     if (air_.edges.empty()) return false;
     const Point foot = nearest_of_slice(p);
     bool printed = false;
-    tracks_.segments().visit(bounding_box({foot, foot}, 2 * settings_.support_width), [&](std::uint32_t k) {
+    tracks_.segments().visit(bounding_box({foot, foot}, 2 * settings_.nozzle), [&](std::uint32_t k) {
         const PlanTracks::Place place = tracks_.place(k);
         const Unit width = plan_.tracks[place.track].paths[place.path].width;
         printed = printed || compare_distance(foot, tracks_.segments().segments()[k], width / 2 + beyond) <= 0;

@@ -158,6 +158,9 @@ void check_printer(const PrinterSettings& printer) {
         std::snprintf(text, sizeof text, "%s is %g; it must lie between %g and %g", name, value, least, most);
         throw Error(ErrorKind::usage, text);
     };
+    if (printer.bed_x == 0 && printer.bed_y == 0)
+        throw Error(ErrorKind::usage,
+                    "bed has no area, or no middle to print on; say with --bed X,Y,Z how large it is");
     need("bed's width (mm)", printer.bed_x, 1, to_mm(lattice_bound));
     need("bed's depth (mm)", printer.bed_y, 1, to_mm(lattice_bound));
     need("highest print (mm)", printer.bed_z, 1, to_mm(lattice_bound));

@@ -343,6 +343,18 @@ Chosen chosen_entries(const std::vector<IniEntry>& all) {
     return chosen;
 }
 
+void refuse_if_nothing_is_taken(const ImportedConfig& imported, const std::string& name) {
+    if (!imported.taken.empty()) return;
+    std::string known;  // what is ignored for a reason
+    for (const std::string& key : imported.ignored) {
+        if (key.find(" (in part") != std::string::npos) return;
+        if (key.ends_with(')')) (known += known.empty() ? "" : ", ") += key;
+    }
+    throw Error(ErrorKind::usage,
+                name + (known.empty() ? ": no setting that we know; is it a PrusaSlicer config or bundle?"
+                                      : ": no setting of it can be taken: " + known));
+}
+
 }  // namespace
 
 ImportedConfig import_prusaslicer(std::string_view text, const std::string& name, Settings& settings,
@@ -406,8 +418,14 @@ ImportedConfig import_prusaslicer(std::string_view text, const std::string& name
             if (std::erase(imported.taken, key) > 0)
                 imported.ignored.push_back(std::string(key) + " (the fan runs as max_fan_speed says)");
     }
-    if (imported.taken.empty())
-        throw Error(ErrorKind::usage, name + ": no setting that we know; is it a PrusaSlicer config or bundle?");
+    if (const auto ignored = std::find_if(imported.ignored.begin(), imported.ignored.end(),
+                                          [](const std::string& key) { return key.starts_with("gcode_flavor"); });
+        ignored != imported.ignored.end() && printer.write_limits) {
+        printer.write_limits = false;
+        std::erase(imported.taken, "machine_limits_usage");
+        imported.ignored.push_back("machine_limits_usage (each flavour has its own words for limits)");
+    }
+    refuse_if_nothing_is_taken(imported, name);
     printer.name = "imported from PrusaSlicer";
     return imported;
 }

@@ -68,7 +68,7 @@ Point PrintPatches::nearest_material(Point p, std::size_t patches) const {
 
 // The tracks and patches that come near a stretch; the object's are `wider` by what it holds up farther than ρ.
 std::vector<Lane> PrintPatches::material_near(const Segment& stretch, Unit wider, bool of_supports) const {
-    const Unit reach = 2 * settings_.support_width + 2 * settings_.support_radius + wider;
+    const Unit reach = 2 * settings_.nozzle + 2 * settings_.support_radius + wider;
     std::vector<Lane> lanes;
     const auto add = [&](const Segment& centre, Unit width, TrackKind kind) {
         if (of_supports && kind != TrackKind::external_support) return;
@@ -85,10 +85,18 @@ std::vector<Lane> PrintPatches::material_near(const Segment& stretch, Unit wider
     return lanes;
 }
 
+// Where the object holds up as much outside as inside, what hangs is judged as a whole (HoldPrint): inside is then what
+// lies over the slice.
+bool PrintPatches::hangs_inside(const HangingTrack& hanging) const {
+    if (hanging.inside || settings_.outside_apart() || hanging.on_supports) return hanging.inside;
+    const Segment s = hanging.place();
+    return outline_.locate(s.a) != Side::outside && outline_.locate(s.b) != Side::outside;
+}
+
 // The dot under a stretch that is nearest to what is there, where that may be asked for: with a removal gap inside
 // the outline only.
 std::optional<PlacedDot> PrintPatches::place(const HangingTrack& hanging) const {
-    if (gap_patches_ && !hanging.inside) return std::nullopt;
+    if (gap_patches_ && !hangs_inside(hanging)) return std::nullopt;
     return place_dot(hanging.stretch_of_lane(), material_near(hanging.place()), settings_.support_width,
                      settings_.support_radius);
 }
@@ -197,7 +205,7 @@ void PrintPatches::add(const std::vector<HangingTrack>& open, bool late) {
         const std::optional<Segment> place = place_under(hanging, late, before);
         if (!place) continue;
         const bool outside = outline_.locate(place->a) == Side::outside || outline_.locate(place->b) == Side::outside;
-        if (hanging.inside && !outside) {
+        if (hangs_inside(hanging) && !outside) {
             patches_.push_back({*place, TrackKind::support});
         } else if (outside && may_stand_outside(*place)) {
             patches_.push_back({*place, TrackKind::external_support});

@@ -55,6 +55,7 @@ private:
     Point nearest_material(Point p, std::size_t patches) const;
     std::vector<Lane> material_near(const Segment& stretch, Unit wider = 0, bool of_supports = false) const;
     std::optional<PlacedDot> place(const HangingTrack& hanging) const;
+    bool hangs_inside(const HangingTrack& hanging) const;
     bool needs_support(const HangingTrack& hanging) const;
     void add_support(const HangingTrack& hanging, bool late);
     Point towards_support(Point p, Unit by) const;

@@ -1,6 +1,6 @@
 #include "ribvault/print/track_settings.hpp"
 
-#include <string>
+#include <cstdio>
 
 #include "ribvault/error.hpp"
 
@@ -8,10 +8,10 @@ namespace ribvault {
 
 void TrackSettings::check(Unit nozzle) const {
     const auto refuse = [](const char* name, double value, double lo, double hi) {
-        if (value < lo || value > hi)
-            throw Error(ErrorKind::usage, std::string(name) + " is " + std::to_string(value) +
-                                              "; it must lie between " + std::to_string(lo) + " and " +
-                                              std::to_string(hi));
+        if (value >= lo && value <= hi) return;
+        char text[160];
+        std::snprintf(text, sizeof text, "%s is %g; it must lie between %g and %g", name, value, lo, hi);
+        throw Error(ErrorKind::usage, text);
     };
     if (first_layer_width != 0)
         refuse("--first-layer-width (mm)", to_mm(first_layer_width), to_mm(nozzle), 2 * to_mm(nozzle));
