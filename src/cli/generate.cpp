@@ -18,8 +18,8 @@ namespace {
 struct Written {
     Job job;
     std::string model, gcode, report, svg, mesh, layers, html;
-    std::optional<Unit> first_layer_height, support_width, support_radius, erosion_step, straighten_step, branch_bonus, pitch,
-        pillar_length;
+    std::optional<Unit> first_layer_height, support_width, support_radius, erosion_step, straighten_step, branch_bonus,
+        pitch, pillar_length;
     std::optional<Rational> overlap;
     std::string strategy = "paper", quarter_bonus;
     bool no_shrink = false, no_trim = false, no_doubling = false;

@@ -100,7 +100,8 @@ struct Settings {
     /// With external supports, how far from O_i the object counts as held up: where they stand off, no track may come
     /// nearer than g + r.
     Unit reach_of_object() const {
-        return stands_off() && support_gap + support_width / 2 > support_radius ? support_gap + support_width / 2 : support_radius;
+        return stands_off() && support_gap + support_width / 2 > support_radius ? support_gap + support_width / 2
+                                                                                : support_radius;
     }
     /// Is what lies outside the outline of the layer below held up otherwise than what lies inside: by the object from
     /// farther off, or through a gap of layers?

@@ -196,7 +196,7 @@ TEST_CASE("what a PrusaSlicer config says and cannot be, or names and does not h
         "c.ini: no setting of it can be taken: [printer:B] (named, but not in the file), [print:A] (named, but not in "
         "the file)");
     CHECK(refused("bed_shape = 0x0,200x0,100x200\n") == "taken");  // in part
-    CHECK(p.bed_x == Approx(200 / 3.0).margin(0.01));  // the square about (100, 100) under the sides
+    CHECK(p.bed_x == Approx(200 / 3.0).margin(0.01));              // the square about (100, 100) under the sides
     import_prusaslicer("bed_shape = 0x0,200x0,200x100,100x100,100x200,0x200\n", "c.ini", s, t, p);
     CHECK_THROWS_WITH(check_printer(p), Catch::Contains("no middle to print on"));
     CHECK(ignored("machine_limits_usage = emit_to_gcode\ngcode_flavor = smoothie\nperimeters = 1\n") ==

@@ -131,7 +131,8 @@ Chosen sweep_candidates(const Slicer& slicer, const Settings& settings, int thre
     end_if(stop);
 
     for (const Sweep& s : sweeps) {
-        const double cost = s.length + cost_of_tip * static_cast<double>(settings.support_width) * static_cast<double>(s.tips);
+        const double cost =
+            s.length + cost_of_tip * static_cast<double>(settings.support_width) * static_cast<double>(s.tips);
         chosen.candidates.push_back(
             {s.settings.quarter_bonus, s.settings.seed, s.length / units_per_mm, s.tips, cost / units_per_mm});
     }

@@ -158,7 +158,8 @@ void GapPatches::add_along_slice(const Segment& s, int depth) {
 }
 
 bool GapPatches::runs_in_object(const Segment& s) const {
-    const auto pieces = static_cast<std::size_t>(8 * length(s.b - s.a) / static_cast<double>(settings_.support_width)) + 2;
+    const auto pieces =
+        static_cast<std::size_t>(8 * length(s.b - s.a) / static_cast<double>(settings_.support_width)) + 2;
     for (std::size_t k = 0; k <= pieces; ++k)
         if (const Point p = division(s, k, pieces);
             in_air(p) && compare_distance(p, air_.nearest_edge(p), beside_edge) > 0)
@@ -188,7 +189,8 @@ std::optional<Point> GapPatches::place_for_wall(Point p, Unit reach, double* bey
 }
 
 bool GapPatches::add_support(const Segment& hanging) {
-    const auto pieces = static_cast<std::size_t>(4 * length(hanging) / static_cast<double>(settings_.support_width)) + 1;
+    const auto pieces =
+        static_cast<std::size_t>(4 * length(hanging) / static_cast<double>(settings_.support_width)) + 1;
     std::vector<Point> at;
     for (std::size_t k = 0; k <= pieces; ++k) {
         const std::optional<Point> place = place_for_wall(division(hanging, k, pieces), settings_.support_radius);

@@ -370,7 +370,8 @@ ImportedConfig import_prusaslicer(std::string_view text, const std::string& name
         Settings s;
         TrackSettings t;
         PrinterSettings p;
-        s.nozzle = s.support_width = settings.nozzle, s.support_radius = s.erosion_step = s.straighten_step = s.nozzle / 2;
+        s.nozzle = s.support_width = settings.nozzle,
+        s.support_radius = s.erosion_step = s.straighten_step = s.nozzle / 2;
         s.branch_bonus_length = 2 * s.nozzle, s.pillar_length = 10 * s.nozzle, s.sampling_pitch = s.nozzle / 4;
         try {
             field({s, t, p}, value);

@@ -313,7 +313,8 @@ void append_support_paths(const SupportForest& forest, const Settings& settings,
         hang_from_root(f, v, plan.layer);
         if (!prints_centre_line(forest[v], settings)) continue;
         if (out_degree(v, forest) == 0)
-            plan.tracks.push_back({{{kind_of(forest[v]), settings.support_width, false, {f.at(v)}}}, Entry::fixed, no_stop});
+            plan.tracks.push_back(
+                {{{kind_of(forest[v]), settings.support_width, false, {f.at(v)}}}, Entry::fixed, no_stop});
         else
             TreePaths(f, v, plan).append(settings.gaps != Gaps::paper);
     }

@@ -17,11 +17,11 @@ namespace ribvault {
 /// A root with several walls is a junction too: but with Gaps::paper its two longest ways are one path, from tip to
 /// tip, unless both have parts on their first layer.
 ///
-/// Only the first path runs through a junction. A later branch starts one track width (`settings.support_width`) short of it,
-/// measured along the branch, unless its first edge has first_layer or to_junction set: then it starts at the junction.
-/// A branch that is no longer than its gap is not printed and counts as gap. A junction that lies inside such a gap is
-/// itself not printed; a branch from there starts where it is one width away, along the tree, from the nearest printed
-/// centre line, so that tracks touch without overlapping there too.
+/// Only the first path runs through a junction. A later branch starts one track width (`settings.support_width`) short
+/// of it, measured along the branch, unless its first edge has first_layer or to_junction set: then it starts at the
+/// junction. A branch that is no longer than its gap is not printed and counts as gap. A junction that lies inside such
+/// a gap is itself not printed; a branch from there starts where it is one width away, along the tree, from the nearest
+/// printed centre line, so that tracks touch without overlapping there too.
 ///
 /// With Gaps::proved and ρ from 0.36 d on, branches in cavities up to 3/2 widths long that would be printed from their
 /// junction are taken along by the path through it (print/bent_path.hpp), where all branches at that junction are such,

@@ -28,8 +28,9 @@ Region off_the_object(const std::vector<std::shared_ptr<const Slice>>& slices, c
     // cuts off 9/4 of the tolerance. Clipped ends and vertices are rounded by up to four lattice units after this; ten
     // keep them off.
     const double tolerance = static_cast<double>(s.slack) / 2;
-    const Region kept_off = offset(object, static_cast<double>(s.support_gap + s.support_width / 2) + 2.5 * tolerance + 10,
-                                   ClipperLib::jtRound, tolerance);
+    const Region kept_off =
+        offset(object, static_cast<double>(s.support_gap + s.support_width / 2) + 2.5 * tolerance + 10,
+               ClipperLib::jtRound, tolerance);
     return uncross(complement(kept_off, frame));
 }
 

@@ -140,7 +140,8 @@ LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const Lay
         throw Error(ErrorKind::usage, "the verifier needs the outline and the cavity of both layers (layer " +
                                           std::to_string(upper_layer) + "); pass an empty cavity where there is none");
     const CGAL::Protect_FPU_rounding<true> upward;
-    const double rho = static_cast<double>(settings.support_radius), r = static_cast<double>(settings.support_width / 2);
+    const double rho = static_cast<double>(settings.support_radius),
+                 r = static_cast<double>(settings.support_width / 2);
     LayerVerdict verdict;
     verdict.layer = upper_layer;
     std::vector<Vertex> vertices;
