@@ -6,7 +6,7 @@ const markShapes = {
 };
 const legends = {
   layers: [["area", "shell", "shell"], ["area", "track", "support track"], ["line", "line", "centre line"], ["root", "root", "root"], ["junction", "junction", "junction"],
-    ["tip", "tip", "tip"], ["dot", "dot", "dot"], ["area", "hang", "newly supported for the layer above"], ["area", "patch", "patch"], ["area", "overhang", "overhangs outside"]],
+    ["tip", "tip", "tip"], ["dot", "dot", "dot"], ["area", "hang", run => `newly supported for the layer ${whichAbove(run)}`], ["area", "patch", "patch"], ["area", "overhang", "overhangs outside"]],
   gcode: [["area", "below", "material below"], ["area", "track", "track"], ["area", "other", "not judged"], ["area", "hang", lacking], ["line", "bridge", "bridge"]],
 };
 function legend(run) {

@@ -96,6 +96,9 @@ function runWords(run) {
     (near > 0 ? ` On ${many(near, "layer")} the object is too thin to be printed as thin as it is, and its tracks come nearer to a support than the gap.` : "");
 }
 
+/** Which layer external supports hold up. */
+const whichAbove = run => run.emptyLayers > 0 ? "over the gap" : "above";
+
 /** The verdict on layer k in two or three words. */
 function layerVerdict(run, k) {
   if (run.kind === "gcode") return !run.refuted(k) ? k === 0 ? "on the bed" : run.bridged(k) > 0 ? "supported, but for bridges" : "supported" : run.good ? "hangs, as --min-area lets it" : "hangs";
@@ -134,7 +137,7 @@ function layerWords(run, k) {
   const supports = n.trees === 0 ? "No supports on this layer." :
     `${many(n.trees, "support tree")}${wide} with ${fixed(n.support_length_mm, 1)} mm: ${many(m.roots.length, "root")}, ` +
     `${many(m.junctions.length, "junction")}, ${many(m.tips.length, "tip")}${m.dots.length ? ", " + many(m.dots.length, "dot") : ""}.`;
-  const grown = places === 0 ? "Nothing new had to be held up." : `Newly supported for the layer ${run.emptyLayers > 0 ? "over the gap" : "above"}: ${many(places, "place")}, at most ${fixed(run.newArea(k), 2)} mm².`;
+  const grown = places === 0 ? "Nothing new had to be held up." : `Newly supported for the layer ${whichAbove(run)}: ${many(places, "place")}, at most ${fixed(run.newArea(k), 2)} mm².`;
   const out = n.verdict.external;
   return `${layerProof(run, k)} Shell of ${fixed(n.shell_volume_mm3, 2)} mm³. ${supports} ${grown}` +
     (out ? ` Outside, ${range(out.area_mm2[0], out.area_mm2[1])} mm² ${run.outside ? "have no support" : "hang over the layer below"}.` : "") +

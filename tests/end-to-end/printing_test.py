@@ -198,11 +198,11 @@ class Printing(unittest.TestCase):
         self.assertEqual(self.run_program("--thumbnails", "big").returncode, 2)
 
     def test_narrower_supports_take_less_and_are_held_up(self):
-        for strategy in ("paper", "thrifty"):
-            self.gcode("--strategy", strategy)
-            full = json.loads((self.folder / "a.json").read_text())
-            text, _ = self.gcode("--strategy", strategy, "--support-width", "0.28")
-            narrow = json.loads((self.folder / "a.json").read_text())
+        for options in (["--strategy", "paper"], ["--strategy", "thrifty", "--length-bound"], ["--wall-lines", "2", "--wall-lines-longer", "3"]):
+            _, full = self.gcode(*options)
+            text, narrow = self.gcode(*options, "--support-width", "0.28")
+            if "--length-bound" in options:
+                self.assertGreater(narrow["totals"]["support_length_bound_mm"], 1.1 * full["totals"]["support_length_bound_mm"])
             self.assertEqual((full["settings"]["support_width_mm"], narrow["settings"]["support_width_mm"]), (0.4, 0.28))
             self.assertLess(narrow["totals"]["support_volume_mm3"], 0.85 * full["totals"]["support_volume_mm3"])
             self.assertAlmostEqual(narrow["totals"]["shell_volume_mm3"], full["totals"]["shell_volume_mm3"], delta=0.01)
