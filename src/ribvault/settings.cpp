@@ -21,13 +21,13 @@ void Settings::check() const {
     within(support_width, (nozzle + 1) / 2, nozzle, "--support-width");
     if (support_width % 2 != 0)
         refuse("--support-width: its half must lie on the 10 nm lattice; give at most four decimals");
+    within(support_radius, 1000, nozzle, "--support-radius");
     if (support_width < nozzle && 20 * support_radius + 10 * support_width < 11 * nozzle)
         refuse("--support-width is " + millimetres(support_width) + " mm: a support holds up what lies within " +
                millimetres(support_width / 2 + support_radius) +
                " mm of its middle (rho and half its width), too little for both sides of a track of " +
                millimetres(nozzle) + " mm; it must be at least " +
-               millimetres((11 * nozzle - 20 * support_radius + 19) / 20 * 2) + " mm wide");
-    within(support_radius, 1000, nozzle, "--support-radius");
+               millimetres(std::min(nozzle, (11 * nozzle - 20 * support_radius + 19) / 20 * 2)) + " mm wide");
     if (support_radius > support_width)
         refuse("--support-radius is " + millimetres(support_radius) + " mm; supports are " +
                millimetres(support_width) + " mm wide, and a track must not leave the one below");

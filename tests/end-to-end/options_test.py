@@ -138,6 +138,8 @@ class Options(unittest.TestCase):
     def test_supports_must_hold_up_the_shell_and_themselves(self):
         for arguments in (["--support-width", "0.26", "--overlap", "0.8"], ["--support-width", "0.3", "--support-radius", "0.31"]):
             self.assertIn("0.28 mm" if "--overlap" in arguments else "--support-radius", self.refused("generate", CUBE, *arguments))
+        self.assertIn("at least 0.4 mm", self.refused("generate", CUBE, "--support-width", "0.3", "--support-radius", "0.015"))
+        self.assertIn("--support-radius", self.refused("generate", CUBE, "--support-width", "0.3", "--support-radius", "0.005"))
         self.accepted("--support-width", "0.28", "--overlap", "0.8")
         self.accepted("--support-width", "0.3", "--support-radius", "0.3")
 
