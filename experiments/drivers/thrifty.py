@@ -15,6 +15,11 @@ MM3_PER_MM = 0.4 * 0.2  # of track
 WIDTHS = ["0.4", "0.36", "0.32", "0.28", "0.24", "0.2"]  # mm, of the supports' tracks
 
 
+def is_proved(lab, run):
+    """As geometry and as printed."""
+    return lab.value(run, "verdict.proved") and lab.value(run, "verdict.print.proved")
+
+
 def widths_table(lab):
     table = Table("thrifty_widths", "Narrower supports, thrifty, one cover, seed 1",
                   [("model", ""), ("--support-width", ""), ("supports mm³", ".0f"), ("all material mm³", ".0f"), ("minutes", ".1f"), ("travels", "d"), ("slenderness", ".0f"), ("proved", ""),
@@ -30,7 +35,7 @@ def widths_table(lab):
             peer = Run("cura", model, (f"infill_line_width={width}",))
             seconds, hanging = lab.value(run, "totals.print_seconds"), lab.value(peer, "verify.report.totals.unsupported_mm")
             table.add(model.title, width, *(lab.value(run, f"totals.{p}") for p in ("support_volume_mm3", "material_mm3")), None if seconds is None else seconds / 60,
-                      *(lab.value(run, f"totals.{p}") for p in ("travels", "slenderness")), lab.value(run, "verdict.proved") and lab.value(run, "verdict.print.proved"),
+                      *(lab.value(run, f"totals.{p}") for p in ("travels", "slenderness")), is_proved(lab, run),
                       lab.value(peer, "infill_mm3"), None if hanging is None else sum(hanging) / 2, lab.why(run) or model.origin)
     return table
 
@@ -55,7 +60,7 @@ def build(lab):
         ratio = ours[0] / paper if ours[0] and paper else None
         if ratio:
             ratios.append(ratio)
-        proved = [lab.value(r, "verdict.proved") and lab.value(r, "verdict.print.proved") for r in (base, *runs)]
+        proved = [is_proved(lab, r) for r in (base, *runs)]
         bound = lab.value(Run("generate", model, (*ONE_COVER, "--strategy", "thrifty", "--length-bound")), "totals.support_length_bound_mm")
         slender = [lab.value(r, "totals.slenderness") for r in (base, runs[0])]
         table.add(model.title, paper, *ours, ratio, None if bound is None else bound * MM3_PER_MM, *slender, PEER_MM3.get(name),
@@ -68,6 +73,6 @@ def build(lab):
             continue
         cover = ONE_COVER if model.name == "cube" else NO_COVER
         pair = [Run("generate", model, (*cover, *o)) for o in (("--gaps", "proved"), ("--strategy", "thrifty"))]
-        proved = [lab.value(r, "verdict.proved") and lab.value(r, "verdict.print.proved") for r in pair]
+        proved = [is_proved(lab, r) for r in pair]
         totals.add(model.title, float(row["ours_mm3"]), float(row["iterative_carving_mm3"]), *(lab.value(r, "totals.material_mm3") for r in pair), all(proved), model.origin)
     return [table, totals, widths_table(lab)]

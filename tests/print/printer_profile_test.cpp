@@ -201,8 +201,7 @@ TEST_CASE("what a PrusaSlicer config says and cannot be, or names and does not h
     CHECK_THROWS_WITH(check_printer(p), Catch::Contains("no middle to print on"));
     CHECK(ignored("machine_limits_usage = emit_to_gcode\ngcode_flavor = smoothie\nperimeters = 1\n") ==
           "gcode_flavor (we write for Marlin, Klipper and RepRapFirmware); machine_limits_usage (each flavour has its "
-          "own "
-          "words for limits); ");
+          "own words for limits); ");
     CHECK_FALSE(p.write_limits);
     CHECK(ignored("machine_limits_usage = emit_to_gcode\ngcode_flavor = klipper\n").empty());
     CHECK(p.write_limits);

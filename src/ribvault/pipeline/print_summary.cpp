@@ -52,11 +52,10 @@ void describe_verdict(std::string& text, const PrintReport& r) {
                          : r.bridged_mm.hi > 0 ? ", but for the bridges"
                                                : "");
         if (r.support_gap_mm > 0 || r.support_gap_layers > 0)
-            append_formatted(
-                text,
-                "           across gaps: within %.5g mm and half a nozzle of the object, and with %d layer%s left "
-                "empty under it\n",
-                r.support_gap_mm, r.support_gap_layers, r.support_gap_layers == 1 ? "" : "s");
+            append_formatted(text,
+                             "           across gaps: within %.5g mm and half a nozzle of the object, and with %s left "
+                             "empty under it\n",
+                             r.support_gap_mm, many(r.support_gap_layers, "layer").c_str());
         if (r.bed_only)
             append_formatted(text,
                              "           with supports that lie on supports alone, down to the bed (--bed-only)\n");

@@ -7,11 +7,6 @@
 namespace ribvault {
 namespace {
 
-/// 1 layer, 2 layers
-std::string many(long long count, const char* what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 /// Where a list is that is too long for the summary; `on_page`: the page has it too.
 std::string where_listed(const Job& job, bool on_page) {
     if (job.report) return "in the report";

@@ -17,6 +17,7 @@
 #include "ribvault/pipeline/thread_limit.hpp"
 #include "ribvault/print/printed_layers.hpp"
 #include "ribvault/print/read_gcode.hpp"
+#include "ribvault/report/number_text.hpp"
 #include "ribvault/report/print_page.hpp"
 #include "ribvault/report/printed_layer_svg.hpp"
 #include "ribvault/report/run_report.hpp"
@@ -208,8 +209,8 @@ private:
             refuse("--inside needs closed loops of outer perimeter, and " + job_.gcode.string() +
                    " has none that end exactly where they begin; judge it without");
         if (const std::vector<int>& without = report_.layers_without_outline; !without.empty())
-            job_.warn("on " + std::to_string(without.size()) + (without.size() == 1 ? " layer" : " layers") +
-                      " (the lowest is layer " + std::to_string(without.front()) +
+            job_.warn("on " + many(static_cast<long long>(without.size()), "layer") + " (the lowest is layer " +
+                      std::to_string(without.front()) +
                       ") there is no outer perimeter, or some of it does not end where it begins and bounds nothing: "
                       "what lies over that counts as outside" +
                       (job_.inside ? " and is not judged" : ""));

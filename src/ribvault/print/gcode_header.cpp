@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <sstream>
 #include <utility>
 
 #include "ribvault/error.hpp"
+#include "ribvault/print/check_range.hpp"
 #include "ribvault/print/gcode_text.hpp"
 #include "ribvault/print/thumbnail.hpp"
 
@@ -152,20 +152,14 @@ std::string fill_placeholders(const std::string& text, const std::string& key, c
 }
 
 void check_printer(const PrinterSettings& printer) {
-    const auto need = [](const char* name, double value, double least, double most) {
-        if (value >= least && value <= most) return;
-        char text[160];
-        std::snprintf(text, sizeof text, "%s is %g; it must lie between %g and %g", name, value, least, most);
-        throw Error(ErrorKind::usage, text);
-    };
     if (printer.bed_x == 0 && printer.bed_y == 0)
         throw Error(ErrorKind::usage,
                     "bed has no area, or no middle to print on; say with --bed X,Y,Z how large it is");
-    need("bed's width (mm)", printer.bed_x, 1, to_mm(lattice_bound));
-    need("bed's depth (mm)", printer.bed_y, 1, to_mm(lattice_bound));
-    need("highest print (mm)", printer.bed_z, 1, to_mm(lattice_bound));
+    check_range("bed's width (mm)", printer.bed_x, 1, to_mm(lattice_bound));
+    check_range("bed's depth (mm)", printer.bed_y, 1, to_mm(lattice_bound));
+    check_range("highest print (mm)", printer.bed_z, 1, to_mm(lattice_bound));
     for (const double corner : printer.bed_corner)
-        need("bed's corner (mm)", corner, -to_mm(lattice_bound), to_mm(lattice_bound));
+        check_range("bed's corner (mm)", corner, -to_mm(lattice_bound), to_mm(lattice_bound));
     const auto refuse = [](const std::string& message) { throw Error(ErrorKind::usage, message); };
     if (printer.round_bed && printer.bed_x != printer.bed_y)
         refuse("bed is " + decimal_text(printer.bed_x) + " x " + decimal_text(printer.bed_y) +
@@ -173,35 +167,35 @@ void check_printer(const PrinterSettings& printer) {
     if (printer.origin_at_centre && printer.bed_corner != std::array<double, 2>{})
         refuse("bed's corner is given and the origin is its middle; choose one of them");
     thumbnail_sizes(printer.thumbnails);
-    need("filament diameter (mm)", printer.filament_diameter, 0.1, 20);
-    need("nozzle temperature (°C)", printer.nozzle_temperature, 0, 1000);
-    need("bed temperature (°C)", printer.bed_temperature, 0, 500);
-    need("nozzle temperature of the first layer (°C)", printer.first_layer_temperature, 0, 1000);
-    need("bed temperature of the first layer (°C)", printer.first_layer_bed_temperature, 0, 500);
-    need("tool of external supports", printer.support_extruder, 0, 63);
-    need("temperature of external supports (°C)", printer.support_temperature, 0, 1000);
-    need("fan (percent)", printer.fan_percent, 0, 100);
+    check_range("filament diameter (mm)", printer.filament_diameter, 0.1, 20);
+    check_range("nozzle temperature (°C)", printer.nozzle_temperature, 0, 1000);
+    check_range("bed temperature (°C)", printer.bed_temperature, 0, 500);
+    check_range("nozzle temperature of the first layer (°C)", printer.first_layer_temperature, 0, 1000);
+    check_range("bed temperature of the first layer (°C)", printer.first_layer_bed_temperature, 0, 500);
+    check_range("tool of external supports", printer.support_extruder, 0, 63);
+    check_range("temperature of external supports (°C)", printer.support_temperature, 0, 1000);
+    check_range("fan (percent)", printer.fan_percent, 0, 100);
     for (const auto& [name, speed] : {std::pair("print speed (mm/s)", printer.print_speed),
                                       {"support speed (mm/s)", printer.support_speed},
                                       {"first layer speed (mm/s)", printer.first_layer_speed},
                                       {"slowest print speed (mm/s)", printer.min_print_speed},
                                       {"travel speed (mm/s)", printer.travel_speed},
                                       {"retraction speed (mm/s)", printer.retraction_speed}})
-        need(name, speed, 0.1, 10000);
-    need("shortest time for a layer (s)", printer.min_layer_time, 0, 10000);
-    need("retraction (mm)", printer.retraction, 0, 100);
-    need("open air that retracts (mm)", printer.retract_over, 0, 1e6);
-    need("longest detour (mm)", printer.longest_detour, 0, 1e6);
-    need("prime surplus (share of the retraction)", printer.prime_surplus, 0, 10);
-    need("surplus clearance (mm)", printer.surplus_clearance, 0, 1e6);
+        check_range(name, speed, 0.1, 10000);
+    check_range("shortest time for a layer (s)", printer.min_layer_time, 0, 10000);
+    check_range("retraction (mm)", printer.retraction, 0, 100);
+    check_range("open air that retracts (mm)", printer.retract_over, 0, 1e6);
+    check_range("longest detour (mm)", printer.longest_detour, 0, 1e6);
+    check_range("prime surplus (share of the retraction)", printer.prime_surplus, 0, 10);
+    check_range("surplus clearance (mm)", printer.surplus_clearance, 0, 1e6);
     for (std::size_t a = 0; a < 4; ++a) {
-        need("highest speed of an axis (mm/s)", printer.limits.speed[a], 0.01, 1e5);
-        need("acceleration of an axis (mm/s2)", printer.limits.acceleration[a], 0.1, 1e7);
-        need("jerk of an axis (mm/s)", printer.limits.jerk[a], 1e-3, 1e5);
+        check_range("highest speed of an axis (mm/s)", printer.limits.speed[a], 0.01, 1e5);
+        check_range("acceleration of an axis (mm/s2)", printer.limits.acceleration[a], 0.1, 1e7);
+        check_range("jerk of an axis (mm/s)", printer.limits.jerk[a], 1e-3, 1e5);
     }
-    need("acceleration (mm/s2)", printer.limits.print_acceleration, 0.1, 1e7);
-    need("retract acceleration (mm/s2)", printer.limits.retract_acceleration, 0.1, 1e7);
-    need("travel acceleration (mm/s2)", printer.limits.travel_acceleration, 0.1, 1e7);
+    check_range("acceleration (mm/s2)", printer.limits.print_acceleration, 0.1, 1e7);
+    check_range("retract acceleration (mm/s2)", printer.limits.retract_acceleration, 0.1, 1e7);
+    check_range("travel acceleration (mm/s2)", printer.limits.travel_acceleration, 0.1, 1e7);
     fill_placeholders(printer.file_header, "file_header", {}, printer, {});
     fill_placeholders(printer.start_gcode, "start_gcode", {}, printer, {});
     fill_placeholders(printer.end_gcode, "end_gcode", {}, printer, {});

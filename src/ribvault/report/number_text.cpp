@@ -12,6 +12,10 @@ std::string fixed(double value, int places) {
     return text;
 }
 
+std::string many(long long count, const char* what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 void append_formatted(std::string& text, const char* format, ...) {
     va_list arguments, again;
     va_start(arguments, format);

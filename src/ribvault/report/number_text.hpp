@@ -9,6 +9,9 @@ namespace ribvault {
 
 std::string fixed(double value, int places);
 
+/// 1 layer, 2 layers
+std::string many(long long count, const char* what);
+
 /// Appends what printf would print, however long.
 __attribute__((format(printf, 2, 3))) void append_formatted(std::string& text, const char* format, ...);
 

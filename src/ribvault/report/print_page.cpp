@@ -99,9 +99,7 @@ Json facts(const GcodePrint& print, const PrintReport& r) {
         (r.flavour == "unknown" ? "" : r.flavour + ", ") + "ρ = " + fixed(r.support_radius_mm, 3) + " mm (" +
         r.support_radius_source + ")" + (r.inside ? ", inside the outline of the layer below" : "") +
         (r.support_gap_mm > 0 ? ", removal gap " + fixed(r.support_gap_mm, 3) + " mm" : "") +
-        (r.support_gap_layers > 0 ? ", " + std::to_string(r.support_gap_layers) +
-                                        (r.support_gap_layers == 1 ? " layer" : " layers") + " left empty over supports"
-                                  : "") +
+        (r.support_gap_layers > 0 ? ", " + many(r.support_gap_layers, "layer") + " left empty over supports" : "") +
         (r.bed_only ? ", supports on the bed alone" : "") + "; ";
     const bool all = r.unsupported_mm.hi == 0 && r.area_mm2.hi == 0,
                apart = r.inside || r.support_gap_mm > 0 || r.support_gap_layers > 0 || r.bed_only;
