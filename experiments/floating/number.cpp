@@ -16,6 +16,7 @@ Vertex slice_vertex(const ExactKernel::Point_2& p) {
     return v;
 }
 Interval enclosure(const Rational& a) { return a.get_d(); }
+Interval enclosure(const Algebraic& a) { return approximation(a, 128).get_d(); }
 template <>
 Vec<Rational> exact_point<Rational>(const Vertex& v) {
     if (!v.slice) return {Rational(static_cast<long>(v.lattice.x)), Rational(static_cast<long>(v.lattice.y))};
@@ -25,7 +26,7 @@ Vec<Rational> exact_point<Rational>(const Vertex& v) {
 template <>
 Vec<Algebraic> exact_point<Algebraic>(const Vertex& v) {
     const Vec<Rational> q = exact_point<Rational>(v);
-    return {to_algebraic(q.x), to_algebraic(q.y)};
+    return {Algebraic(q.x), Algebraic(q.y)};
 }
 Interval root(const Interval& a) { return std::sqrt(std::max(a.inf(), 0.0)); }
 Rational root(const Rational& a) {
@@ -33,7 +34,5 @@ Rational root(const Rational& a) {
         throw NotRational{};
     return Rational(sqrt(a.get_num()), sqrt(a.get_den()));
 }
-Algebraic root(const Algebraic& a) { return CGAL::sqrt(a); }
-Algebraic to_algebraic(const Rational& a) { return Algebraic(CORE::BigRat(a.get_mpq_t())); }
 
 }  // namespace ribvault::verify

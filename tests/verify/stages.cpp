@@ -148,7 +148,6 @@ TEST_CASE("all stages that answer agree on thousands of near-degenerate points",
             const CGAL::Protect_FPU_rounding<true> nearest(CGAL_FE_TONEAREST);
             q = rational_value(v);
             if (q) by_rationals = sign_of(f.operator()<Rational>(*q));
-            const std::lock_guard lock(algebraic_mutex());
             by_algebra = sign_of(f.operator()<Algebraic>(locate<Algebraic>(s.problem, v.candidate)));
         }
         ++total, certain += by_intervals != unknown, zero += by_algebra == 0, rational += q != nullptr;

@@ -86,7 +86,6 @@ template <class F>
         return s;
     } catch (const NotRational&) {
     }
-    const std::lock_guard lock(algebraic_mutex());
     stage = Stage::algebraic;
     return sign_of(f.template operator()<Algebraic>());
 }
@@ -98,11 +97,6 @@ int input_sign(const F& f, Stage& stage) {
 }
 
 }  // namespace
-
-std::mutex& algebraic_mutex() {
-    static std::mutex mutex;
-    return mutex;
-}
 
 template <class NT>
 Vec<NT> locate(const CoverProblem& problem, const Candidate& candidate) {
@@ -167,14 +161,9 @@ void refine(Located& v) {
         v.x = enclosure(q->x), v.y = enclosure(q->y);
         return;
     }
-    const std::lock_guard lock(algebraic_mutex());
     v.stage = Stage::algebraic;
     const Vec<Algebraic> q = locate<Algebraic>(*v.problem, v.candidate);
-    const auto enclose = [](const Algebraic& a) {
-        const std::pair<double, double> range = CGAL::to_interval(a);
-        return Interval(range.first, range.second);
-    };
-    v.x = enclose(q.x), v.y = enclose(q.y);
+    v.x = enclosure(q.x), v.y = enclosure(q.y);
 }
 
 }  // namespace ribvault::verify

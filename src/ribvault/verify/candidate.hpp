@@ -1,7 +1,6 @@
 // Candidate points: where a corner of the uncovered set can be (docs/verifier.md), constructed in any number type.
 #pragma once
 
-#include <mutex>
 #include <optional>
 
 #include "ribvault/verify/cover_problem.hpp"
@@ -30,9 +29,6 @@ struct Candidate {
 
 /// Which stage answered last.
 enum class Stage { interval = 0, rational = 1, algebraic = 2 };
-
-/// Serialises the algebraic stage: CORE's numbers share memory pools. Rounding is to nearest while it is held.
-std::mutex& algebraic_mutex();
 
 /// A candidate point of a problem: certified enclosure, exact value on demand, and the highest stage that was needed.
 struct Located {
@@ -78,7 +74,6 @@ template <class F>
         } catch (const NotRational&) {  // the point is rational, what f compares it with is not
         }
     }
-    const std::lock_guard lock(algebraic_mutex());
     v.stage = Stage::algebraic;
     return sign_of(f.template operator()<Algebraic>(locate<Algebraic>(*v.problem, v.candidate)));
 }

@@ -12,7 +12,7 @@ namespace ribvault::verify {
 namespace {
 
 /// The corners of a loop, rational and within `error` of the true ones in both coordinates; local units. bits 0: as
-/// doubles enclose them.
+/// doubles enclose them, where they do.
 struct Corners {
     std::vector<Vec<Rational>> at;  ///< where piece i begins
     Rational error;
@@ -26,16 +26,17 @@ Corners corners_of(TraceProblem& trace, const TraceLoop& loop, unsigned bits) {
             continue;
         }
         TraceVertex& v = trace.vertices[static_cast<std::size_t>(piece.from)];
-        if (bits > 0) {
-            corners.at.push_back(approximation(v, bits));
+        const Interval &x = v.at.x, &y = v.at.y;
+        // The sides of tracks that are all but parallel meet where intervals cannot say.
+        if (bits > 0 || !std::isfinite((x.sup() - x.inf()) + (y.sup() - y.inf()))) {
+            corners.at.push_back(approximation(v, std::max(bits, 128U)));
             continue;
         }
-        const Interval &x = v.at.x, &y = v.at.y;
         corners.at.push_back({Rational((x.inf() + x.sup()) / 2), Rational((y.inf() + y.sup()) / 2)});
         widest = std::max(
             {widest, x.sup() - x.inf(), y.sup() - y.inf(), 0x1p-51 * std::abs(x.sup()), 0x1p-51 * std::abs(y.sup())});
     }
-    corners.error = bits > 0 ? power_of_two(-static_cast<int>(bits)) : Rational(widest);
+    corners.error = bits > 0 ? power_of_two(-static_cast<int>(bits)) : std::max(Rational(widest), power_of_two(-128));
     return corners;
 }
 

@@ -33,6 +33,12 @@ Interval enclosure(const Rational& a) {
     return a > 0 ? Interval(d, std::nextafter(d, HUGE_VAL)) : Interval(std::nextafter(d, -HUGE_VAL), d);
 }
 
+Interval enclosure(const Algebraic& a) {
+    constexpr unsigned bits = 128;
+    const Rational close = approximation(a, bits), off = power_of_two(-static_cast<int>(bits));
+    return {enclosure(Rational(close - off)).inf(), enclosure(Rational(close + off)).sup()};
+}
+
 Vertex rational_vertex(const Vec<Rational>& p) {
     Vertex v;
     v.x = enclosure(p.x), v.y = enclosure(p.y);
@@ -53,7 +59,7 @@ Vec<Rational> exact_point<Rational>(const Vertex& v) {
 template <>
 Vec<Algebraic> exact_point<Algebraic>(const Vertex& v) {
     const Vec<Rational> q = exact_point<Rational>(v);
-    return {to_algebraic(q.x), to_algebraic(q.y)};
+    return {Algebraic(q.x), Algebraic(q.y)};
 }
 
 Interval root(const Interval& a) { return CGAL::sqrt(a.inf() < 0 ? Interval(0, a.sup() < 0 ? 0 : a.sup()) : a); }
@@ -63,9 +69,5 @@ Rational root(const Rational& a) {
         throw NotRational{};
     return Rational(sqrt(a.get_num()), sqrt(a.get_den()));
 }
-
-Algebraic root(const Algebraic& a) { return CGAL::sqrt(a); }
-
-Algebraic to_algebraic(const Rational& a) { return Algebraic(CORE::BigRat(a.get_mpq_t())); }
 
 }  // namespace ribvault::verify

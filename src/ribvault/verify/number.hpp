@@ -6,12 +6,12 @@
 
 #include "ribvault/exact/rational.hpp"
 #include "ribvault/slice/exact_polygons.hpp"
-#include "ribvault/verify/core_number.hpp"
+#include "ribvault/verify/algebraic_number.hpp"
 
 namespace ribvault::verify {
 
 using Interval = CGAL::Interval_nt_advanced;
-using Algebraic = CORE::Expr;
+using Algebraic = AlgebraicNumber;
 
 /// Thrown by root() on rationals whose square root is none: the rational stage cannot answer.
 struct NotRational {};
@@ -54,6 +54,8 @@ Vertex rational_vertex(const Vec<Rational>& p);
 
 /// Doubles next to each other, or equal ones, that enclose a number.
 Interval enclosure(const Rational& a);
+/// An enclosure by doubles next to each other, or 2^-126 wide where that is wider.
+Interval enclosure(const Algebraic& a);
 
 /// The vertex in the number type NT.
 template <class NT>
@@ -70,7 +72,6 @@ Vec<Algebraic> exact_point<Algebraic>(const Vertex& v);
 /// Square root of a number known to be >= 0.
 Interval root(const Interval& a);
 Rational root(const Rational& a);  ///< throws NotRational
-Algebraic root(const Algebraic& a);
 
 /// -1, 0, 1, or `unknown` (intervals only).
 inline int sign_of(const Interval& a) {
@@ -79,9 +80,6 @@ inline int sign_of(const Interval& a) {
     return a.inf() == 0 && a.sup() == 0 ? 0 : unknown;
 }
 inline int sign_of(const Rational& a) { return sgn(a); }
-inline int sign_of(const Algebraic& a) { return a.sign(); }
-
-Algebraic to_algebraic(const Rational& a);
 
 /// A double to the number type, exactly.
 template <class NT>
@@ -117,7 +115,7 @@ inline Rational number<Rational>(const Radius& r) {
 }
 template <>
 inline Algebraic number<Algebraic>(const Radius& r) {
-    return r.exact ? to_algebraic(r.exact->value) : Algebraic(r.approx);
+    return r.exact ? Algebraic(r.exact->value) : Algebraic(r.approx);
 }
 
 /// r - sign * s; no rounding where r = s.

@@ -8,10 +8,6 @@ namespace ribvault::verify {
 
 namespace {
 
-Rational approximate(const Algebraic& a, unsigned digits) {
-    return Rational(a.approx(CORE::extLong(digits), CORE::extLong(digits)).BigRatValue().get_mp());
-}
-
 /// A point of the closure of M \ K and a direction of about unit length, local units, to many digits.
 struct Start {
     Vec<Rational> at, along;
@@ -19,9 +15,8 @@ struct Start {
 
 Start start_of(const CoverProblem& problem, const Uncovered& found, unsigned digits) {
     const CGAL::Protect_FPU_rounding<true> nearest(CGAL_FE_TONEAREST);
-    const std::lock_guard lock(algebraic_mutex());
     const Vec<Algebraic> v = locate<Algebraic>(problem, *found.candidate);
-    Start start{{approximate(v.x, digits), approximate(v.y, digits)}, {Rational(1), Rational(0)}};
+    Start start{{approximation(v.x, digits), approximation(v.y, digits)}, {Rational(1), Rational(0)}};
     const Leaving& l = found.leaving;
     if (l.a < 0) return start;
     const auto vertex = [&](int i) { return exact_point<Rational>(problem.vertices[static_cast<std::size_t>(i)]); };

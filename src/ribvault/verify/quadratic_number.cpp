@@ -4,17 +4,11 @@ namespace ribvault::verify {
 
 namespace {
 
-// Sign of u + v, given the signs of both and that of u^2 - v^2.
-template <class Squares>
-int sign_of_sum(int u, int v, const Squares& compare_squares) {
-    if (u == 0 || v == 0 || u == v) return u != 0 ? u : v;
-    const int c = compare_squares();
-    return c > 0 ? u : c < 0 ? v : 0;
-}
-
 int sign(const Rational& p, const Rational& q, const Rational& d) {
     return sign_of_sum(sgn(p), sgn(q) * sgn(d), [&] { return sgn(Rational(p * p - q * q * d)); });
 }
+
+const Rational& common_root(const QuadraticNumber& a, const QuadraticNumber& b) { return a.rational() ? b.d : a.d; }
 
 }  // namespace
 
@@ -22,6 +16,18 @@ QuadraticNumber quadratic(const Rational& p, const Rational& q, const Rational& 
     if (sgn(q) == 0 || sgn(d) == 0) return {p, 0, 0};
     if (mpz_perfect_square_p(d.get_num_mpz_t()) == 0 || mpz_perfect_square_p(d.get_den_mpz_t()) == 0) return {p, q, d};
     return {Rational(p + q * Rational(sqrt(d.get_num()), sqrt(d.get_den()))), 0, 0};
+}
+
+QuadraticNumber operator+(const QuadraticNumber& a, const QuadraticNumber& b) {
+    return {Rational(a.p + b.p), Rational(a.q + b.q), common_root(a, b)};
+}
+QuadraticNumber operator-(const QuadraticNumber& a, const QuadraticNumber& b) {
+    return {Rational(a.p - b.p), Rational(a.q - b.q), common_root(a, b)};
+}
+QuadraticNumber operator*(const QuadraticNumber& a, const QuadraticNumber& b) {
+    if (a.rational() && b.rational()) return {Rational(a.p * b.p), 0, 0};
+    const Rational& d = common_root(a, b);
+    return {Rational(a.p * b.p + a.q * b.q * d), Rational(a.p * b.q + a.q * b.p), d};
 }
 
 int sign(const QuadraticNumber& a) { return sign(a.p, a.q, a.d); }

@@ -141,13 +141,8 @@ const Vec<Rational>& approximation(TraceVertex& v, unsigned bits) {
     CGAL::Protect_FPU_rounding<true> nearest(CGAL_FE_TONEAREST);
     v.bits = bits;
     if (const Vec<Rational>* q = rational_value(v.at)) return v.close = *q;
-    const std::lock_guard lock(algebraic_mutex());
     const Vec<Algebraic> p = locate<Algebraic>(*v.at.problem, v.at.candidate);
-    // The relative bound suffices for coordinates below 2^64, which local ones are by far.
-    const auto close = [&](const Algebraic& a) {
-        return Rational(a.approx(CORE::extLong(bits + 64), CORE::extLong(bits)).BigRatValue().get_mp());
-    };
-    return v.close = {close(p.x), close(p.y)};
+    return v.close = {approximation(p.x, bits), approximation(p.y, bits)};
 }
 
 void find_trace_vertices(TraceProblem& trace) {

@@ -9,7 +9,7 @@
 
 #include "ribvault/exact/rational.hpp"
 #include "ribvault/slice/exact_polygons.hpp"
-#include "ribvault/verify/core_number.hpp"
+#include "ribvault/verify/algebraic_number.hpp"
 
 namespace CGAL {
 /// Doubles round to nearest, as everybody's do.
@@ -39,7 +39,7 @@ public:
 private:
     double a_;
 };
-using Algebraic = CORE::Expr;
+using Algebraic = AlgebraicNumber;
 
 /// Thrown by root() on rationals whose square root is none: the rational stage cannot answer.
 struct NotRational {};
@@ -82,6 +82,7 @@ Vertex rational_vertex(const Vec<Rational>& p);
 
 /// Doubles next to each other, or equal ones, that enclose a number.
 Interval enclosure(const Rational& a);
+Interval enclosure(const Algebraic& a);
 
 /// The vertex in the number type NT.
 template <class NT>
@@ -98,14 +99,10 @@ Vec<Algebraic> exact_point<Algebraic>(const Vertex& v);
 /// Square root of a number known to be >= 0.
 Interval root(const Interval& a);
 Rational root(const Rational& a);  ///< throws NotRational
-Algebraic root(const Algebraic& a);
 
 /// Always an answer, but for NaN (0 / 0), which falls back to exact numbers as a program with doubles could not.
 inline int sign_of(const Interval& a) { return a.inf() > 0 ? 1 : a.inf() < 0 ? -1 : a.inf() == 0 ? 0 : unknown; }
 inline int sign_of(const Rational& a) { return sgn(a); }
-inline int sign_of(const Algebraic& a) { return a.sign(); }
-
-Algebraic to_algebraic(const Rational& a);
 
 /// A double to the number type, exactly.
 template <class NT>
@@ -141,7 +138,7 @@ inline Rational number<Rational>(const Radius& r) {
 }
 template <>
 inline Algebraic number<Algebraic>(const Radius& r) {
-    return r.exact ? to_algebraic(r.exact->value) : Algebraic(r.approx);
+    return r.exact ? Algebraic(r.exact->value) : Algebraic(r.approx);
 }
 
 /// r - sign * s; no rounding where r = s.
