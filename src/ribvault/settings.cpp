@@ -24,7 +24,7 @@ void Settings::check() const {
     within(support_radius, 1000, nozzle, "--support-radius");
     if (support_width < nozzle && 20 * support_radius + 10 * support_width < 11 * nozzle)
         refuse("--support-width is " + millimetres(support_width) + " mm: a support holds up what lies within " +
-               millimetres(support_width / 2 + support_radius) +
+               millimetres(reach_of_support()) +
                " mm of its middle (rho and half its width), too little for both sides of a track of " +
                millimetres(nozzle) + " mm; it must be at least " +
                millimetres(std::min(nozzle, (11 * nozzle - 20 * support_radius + 19) / 20 * 2)) + " mm wide");

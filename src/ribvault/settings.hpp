@@ -1,6 +1,7 @@
 // All settings of a run in one struct, checked once at the edge and passed whole.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -94,15 +95,18 @@ struct Settings {
     Unit slack = 100;  ///< the generator covers with radius r + ρ - slack, so that the proof seldom meets a tie
     Unit max_gap = 5000;         ///< open contours are closed over gaps up to this length
 
+    /// r: half the width of the supports.
+    Unit half_width() const { return support_width / 2; }
+    /// r + ρ: how far from its middle a support holds up what lies on it.
+    Unit reach_of_support() const { return half_width() + support_radius; }
+    /// g + r: how near to the object the middle of a support outside may come.
+    Unit standoff() const { return support_gap + half_width(); }
     bool inside() const { return support != Support::external; }
     /// Do external supports keep off the object, so that none is rooted on it?
     bool stands_off() const { return support_gap > 0 || support_gap_layers > 0 || bed_only; }
     /// With external supports, how far from O_i the object counts as held up: where they stand off, no track may come
     /// nearer than g + r.
-    Unit reach_of_object() const {
-        return stands_off() && support_gap + support_width / 2 > support_radius ? support_gap + support_width / 2
-                                                                                : support_radius;
-    }
+    Unit reach_of_object() const { return stands_off() ? std::max(standoff(), support_radius) : support_radius; }
     /// Is what lies outside the outline of the layer below held up otherwise than what lies inside: by the object from
     /// farther off, or through a gap of layers?
     bool outside_apart() const { return outside() && (support_gap_layers > 0 || reach_of_object() > support_radius); }

@@ -254,8 +254,7 @@ TEST_CASE("at the tip of a spike without a lattice point inside a pillar stands 
     GrowingSupports supports({}, boundary.location.box(), boundary, settings);
     const Point at{-39500, -800};
     supports.add_wall(at, 0);
-    CHECK(supports.covers(at,
-                          static_cast<double>(settings.support_width / 2 + settings.support_radius - settings.slack)));
+    CHECK(supports.covers(at, settings.reach_of_support() - settings.slack));
     const SupportForest forest = supports.take();
     REQUIRE(num_vertices(forest) > 0);
     for (auto [v, end] = vertices(forest); v != end; ++v)

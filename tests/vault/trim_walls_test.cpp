@@ -55,7 +55,7 @@ TEST_CASE("walls are trimmed to what bisection over the whole region gives") {
         for (const UnsupportedCells::Cell& cell : unsupported.cells())
             for (Unit bit = 0; bit < 64; ++bit) {
                 const Point p = unsupported.pixel(cell, bit);
-                const double covered = static_cast<double>(settings.support_width / 2 + settings.support_radius) / 2;
+                const Unit covered = settings.reach_of_support() / 2;
                 if ((cell.pixels >> bit & 1) && !fast.covers(p, covered))
                     fast.add_wall(p, settings.branch_bonus_length);
             }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ribvault {
 namespace {
@@ -72,6 +73,8 @@ double distance(const Segment& s, const Segment& t) {
     for (const Point p : {t.a, t.b}) least = std::min(least, squared_distance(p, s).value());
     return std::sqrt(least);
 }
+
+static_assert(std::numeric_limits<long double>::digits >= 64, "the filters below count on relative errors of 2^-64");
 
 int compare(const SquaredDistance& a, const SquaredDistance& b) {
     if (a.denominator == b.denominator) return (a.numerator > b.numerator) - (a.numerator < b.numerator);

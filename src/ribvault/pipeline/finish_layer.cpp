@@ -44,10 +44,9 @@ void LayerFinisher::prove(const SweptLayer& swept, const LayerMaterial* below, L
 void LayerFinisher::check_gap(const SweptLayer& layer, LayerReport& report) const {
     const Settings& s = job_.settings;
     const std::vector<Segment> outside = segments_of(layer.held.plan, TrackKind::external_support);
-    std::optional<Segment> near =
-        find_too_near(*layer.material.slice->exact, outside, s.support_gap + s.support_width / 2);
+    std::optional<Segment> near = find_too_near(*layer.material.slice->exact, outside, s.standoff());
     for (const auto& above : layer.material.slices_above)
-        if (!near) near = find_too_near(*above->exact, outside, s.support_gap + s.support_width / 2);
+        if (!near) near = find_too_near(*above->exact, outside, s.standoff());
     report.patch_in_gap =
         s.support_gap > 0 && std::any_of(layer.patches.begin(), layer.patches.end(), [&](const auto& patches) {
             return find_too_near(*patches, outside, s.support_gap + s.support_width).has_value();

@@ -105,7 +105,7 @@ Point GapPatches::nearest_of_slice(Point p) const { return in_air(p) ? nearest_p
 /// stand out of the slice. Where the slice has no room for one, the point of the slice nearest to p, moved inwards as
 /// far as needed to keep off external supports; where they are too near on both sides, the place farthest from them.
 Point GapPatches::place_in_object(Point p) const {
-    const Unit flush = settings_.support_width / 2 - within_edge;
+    const Unit flush = settings_.half_width() - within_edge;
     Point within = p;
     for (int step = 0; step < 4; ++step) {
         if (is_within(within, flush - within_edge)) return within;
@@ -209,7 +209,7 @@ bool GapPatches::add_support(const Segment& hanging) {
 }
 
 bool GapPatches::add_under_rim(const HangingStretch& hanging, const std::vector<Lane>& material) {
-    const Unit reach = settings_.support_width / 2 + settings_.support_radius - sampling_room;
+    const Unit reach = settings_.reach_of_support() - sampling_room;
     std::vector<Point> open;
     bool all_in_reach = true;
     // Piece by piece: where nothing may stand within reach of any of it, its points need not be looked at.

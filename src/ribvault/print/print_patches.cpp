@@ -85,8 +85,8 @@ std::vector<Lane> PrintPatches::material_near(const Segment& stretch, Unit wider
     return lanes;
 }
 
-// Where the object holds up as much outside as inside, what hangs is judged as a whole (HoldPrint): inside is then what
-// lies over the slice.
+// Where the object holds up as much outside as inside, what hangs is judged as a whole (Holder::judge): inside is then
+// what lies over the slice.
 bool PrintPatches::hangs_inside(const HangingTrack& hanging) const {
     if (hanging.inside || settings_.outside_apart() || hanging.on_supports) return hanging.inside;
     const Segment s = hanging.place();

@@ -50,7 +50,8 @@ Region stubs(const Region& outline, const Region& centres, const Region& narrow,
     const auto longer_ring = [&](const Region& tip) {  // than without the tip
         double sum = 0;
         for (const Segment& e : edges_of(tip)) {
-            const bool shared = border.nearest(part_way(e.a, e.b, 0.5)).distance.value() <= apart * apart;
+            const bool shared =
+                border.nearest(part_way(e.a, e.b, 0.5)).distance.value() <= border_margin * border_margin;
             sum += shared ? length(e) : -length(e);
         }
         return sum;
@@ -59,7 +60,7 @@ Region stubs(const Region& outline, const Region& centres, const Region& narrow,
     for (const Region& tip : tips) append(tip, left_out);
     const Region others = without(centres, left_out);
     const NearestSegment other_border(edges_of(others));
-    for (const Region& room : clip_to_pieces(cl::ctDifference, outline, mitred(others, width / 2 + apart))) {
+    for (const Region& room : clip_to_pieces(cl::ctDifference, outline, mitred(others, width / 2 + border_margin))) {
         const double area = signed_area(room);
         if (area < width * width / 2) continue;
         const PointLocation inside(edges_of(room), w);
@@ -74,7 +75,7 @@ Region stubs(const Region& outline, const Region& centres, const Region& narrow,
         if (here.empty()) continue;
         const double track = material_along(room, w, other_border);
         if (track == 0) continue;
-        ring += material_along(clip(cl::ctDifference, room, mitred(here, width / 2 + apart)), w, border);
+        ring += material_along(clip(cl::ctDifference, room, mitred(here, width / 2 + border_margin)), w, border);
         if (std::abs(track - area) < std::abs(ring - area)) append(here, found);
     }
     return found;
@@ -83,13 +84,13 @@ Region stubs(const Region& outline, const Region& centres, const Region& narrow,
 }  // namespace
 
 Region without(const Region& region, const Region& parts) {
-    return parts.empty() ? region : clip(cl::ctDifference, region, mitred(parts, apart));
+    return parts.empty() ? region : clip(cl::ctDifference, region, mitred(parts, border_margin));
 }
 
 Region with_room(const Region& centres, const Region& outline, double inset, Unit w) {
     const double width = static_cast<double>(w);
     const double least = width / 4 + clip_rounding;  // exactly w / 2 is narrow, however the edges lie
-    const Region wide = mitred(mitred(centres, -least), least + apart);
+    const Region wide = mitred(mitred(centres, -least), least + border_margin);
     Region narrow;
     std::vector<Region> tips;
     for (Region& piece : clip_to_pieces(cl::ctDifference, centres, wide)) {

@@ -6,7 +6,7 @@
 namespace ribvault {
 
 /// Lattice units: keeps Clipper away from nearly coincident borders.
-inline constexpr double apart = 10;
+inline constexpr double border_margin = 10;
 
 /// A region without parts of it and a little more around them: along borders that they share rounding leaves slivers.
 Region without(const Region& region, const Region& parts);

@@ -198,7 +198,7 @@ void append_thin_walls(const Region& outline, const Region& outermost, Unit w, U
     };
     // A little more than the perimeters, so that no slivers of rounding are left.
     for (const Region& piece :
-         connected_pieces(clip(cl::ctDifference, outline, mitred(outermost, width / 2 + apart)))) {
+         connected_pieces(clip(cl::ctDifference, outline, mitred(outermost, width / 2 + border_margin)))) {
         const double area = signed_area(piece);
         if (area < smallest) continue;
         std::vector<PlannedTrack> walls;
@@ -228,7 +228,7 @@ std::vector<Region> cover_areas(const Region& outline, const Region& cavity, int
                                 bool narrow) {
     Region centres = clip(cl::ctDifference, mitred(outline, -(perimeters + 0.5) * width), mitred(cavity, width / 2));
     const double least = width / 4 + clip_rounding;
-    if (!narrow) centres = clip(cl::ctIntersection, mitred(mitred(centres, -least), least + apart), centres);
+    if (!narrow) centres = clip(cl::ctIntersection, mitred(mitred(centres, -least), least + border_margin), centres);
     return connected_pieces(std::move(centres));
 }
 
@@ -238,7 +238,7 @@ void append_concentric(Region area, Unit w, LayerPlan& plan) {
     Region room = mitred(area, width / 2);  // what the rings before leave
     while (!room.empty()) {
         Region rings = with_room(area, room, 0, w);
-        const Region left = clip(cl::ctDifference, room, mitred(rings, width / 2 + apart));
+        const Region left = clip(cl::ctDifference, room, mitred(rings, width / 2 + border_margin));
         for (PlannedTrack& middle : medial_tracks(left, w, TrackKind::cover)) plan.tracks.push_back(std::move(middle));
         room = mitred(rings, -width / 2), area = mitred(rings, -width);
         for (Contour& ring : rings) {
@@ -282,10 +282,10 @@ std::vector<PlannedTrack> strip_tracks(const Region& left, Unit w, Unit narrower
     const double width = static_cast<double>(w);
     std::vector<PlannedTrack> strips;
     Region filled;
-    // Only where a track of w / 2 has room, counted with the 2 `apart` that the strips lack on either side; most are
-    // narrower all along.
-    const double least = width / 4 - 2 * apart - clip_rounding;
-    const Region wide = mitred(mitred(left, -least), least + apart);
+    // Only where a track of w / 2 has room, counted with the 2 `border_margin` that the strips lack on either side;
+    // most are narrower all along.
+    const double least = width / 4 - 2 * border_margin - clip_rounding;
+    const Region wide = mitred(mitred(left, -least), least + border_margin);
     if (wide.empty() && narrower == w) return strips;
     for (const Region& piece : clip_to_pieces(cl::ctIntersection, wide, left)) {
         const double area = signed_area(piece);
@@ -312,8 +312,8 @@ void append_between_perimeters(const Region& outline, const std::vector<Region>&
                                GapFill which, LayerPlan& plan) {
     const double width = static_cast<double>(w);
     for (std::size_t j = 1; j < centres.size(); ++j) {
-        const Region left = clip(cl::ctDifference, mitred(outline, -static_cast<double>(j) * width - 2 * apart),
-                                 mitred(centres[j], width / 2 + 2 * apart));
+        const Region left = clip(cl::ctDifference, mitred(outline, -static_cast<double>(j) * width - 2 * border_margin),
+                                 mitred(centres[j], width / 2 + 2 * border_margin));
         if (signed_area(left) < width * width / 16) continue;
         plan.unfilled_area += signed_area(left);
         if (which == GapFill::none) continue;
@@ -327,9 +327,9 @@ void append_between_perimeters(const Region& outline, const std::vector<Region>&
 void append_gap_fill(const Region& outline, const Region& cavity, int perimeters, Unit w, Unit narrower,
                      std::size_t first_cover, GapFill which, const Covering& covering, LayerPlan& plan) {
     const double width = static_cast<double>(w);
-    const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - 2 * apart), cavity);
+    const Region room = clip(cl::ctDifference, mitred(outline, -perimeters * width - 2 * border_margin), cavity);
     if (signed_area(room) < width * width / 16) return;
-    const Region covers = printed_covers(plan, first_cover, 2 * apart);
+    const Region covers = printed_covers(plan, first_cover, 2 * border_margin);
     const Region left = covers.empty() ? room : clip(cl::ctDifference, room, covers);
     plan.unfilled_area += signed_area(left);
     if (which == GapFill::none) return;

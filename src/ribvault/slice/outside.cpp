@@ -29,8 +29,7 @@ Region off_the_object(const std::vector<std::shared_ptr<const Slice>>& slices, c
     // keep them off.
     const double tolerance = static_cast<double>(s.slack) / 2;
     const Region kept_off =
-        offset(object, static_cast<double>(s.support_gap + s.support_width / 2) + 2.5 * tolerance + 10,
-               ClipperLib::jtRound, tolerance);
+        offset(object, static_cast<double>(s.standoff()) + 2.5 * tolerance + 10, ClipperLib::jtRound, tolerance);
     return uncross(complement(kept_off, frame));
 }
 

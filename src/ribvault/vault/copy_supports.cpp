@@ -136,7 +136,8 @@ private:
     }
 
     bool at_boundary(Point p) const {
-        return boundary_.edges.nearest(p).distance.value() <= root_tolerance * root_tolerance;
+        const SquaredDistance d = boundary_.edges.nearest(p).distance;
+        return d.numerator <= static_cast<Int128>(root_tolerance * root_tolerance) * d.denominator;
     }
 
     void make_root(std::size_t v, Point at) { result_.forest[v].at = at, result_.forest[v].root = true; }

@@ -46,7 +46,7 @@ Region unsupported_walls(const std::vector<Segment>& inherited, const SupportFor
                    compare_distance(piece.b, walls[k], settings.support_radius) <= 0;
         });
         if (held) continue;
-        for (Contour& contour : circumscribed_stadium(piece, settings.support_width / 2))
+        for (Contour& contour : circumscribed_stadium(piece, settings.half_width()))
             stadiums.push_back(std::move(contour));
     }
     if (stadiums.empty()) return {};

@@ -63,8 +63,8 @@ public:
         : settings_(settings),
           boundary_(boundary),
           seed_(seed),
-          radius_(static_cast<double>(settings.support_width / 2 + settings.support_radius)),
-          slack_(static_cast<double>(settings.slack)),
+          radius_(settings.reach_of_support()),
+          slack_(settings.slack),
           unsupported_(unsupported, settings),
           supports_(std::move(forest), boundary.location.box(), boundary, settings) {
         if (settings.branch_bonus && settings.quarter_bonus == QuarterBonus::narrow)
@@ -117,7 +117,7 @@ private:
                 continue;
             }
             const UnsupportedCells::Cell& cell = cells[static_cast<std::size_t>(candidate.cell)];
-            if (supports_.covers(candidate.at, radius_ - half_diagonal(cell.box))) continue;
+            if (supports_.covers_around(candidate.at, half_diagonal(cell.box), radius_)) continue;
             for (Unit bit = 0; bit < 64; ++bit) {
                 if (!(cell.pixels >> bit & 1)) continue;
                 const Point p = unsupported_.pixel(cell, bit);
@@ -169,7 +169,7 @@ private:
     const Settings& settings_;
     const CavityBoundary& boundary_;
     std::uint64_t seed_;
-    double radius_, slack_;
+    Unit radius_, slack_;
     UnsupportedCells unsupported_;
     PointLocation wide_;  ///< where the bonus counts in full, with QuarterBonus::narrow
     GrowingSupports supports_;

@@ -29,7 +29,7 @@ GrowingSupports::GrowingSupports(SupportForest forest, const Box& cavity_box, co
     : forest_(std::move(forest)),
       boundary_(boundary),
       settings_(settings),
-      grid_(cavity_box, settings.support_width, settings.support_width / 2 + settings.support_radius) {
+      grid_(cavity_box, settings.support_width, settings.reach_of_support()) {
     inherited_vertices_ = num_vertices(forest_);
     for (auto [e, end] = edges(forest_); e != end; ++e) enter(source(*e, forest_), target(*e, forest_));
     for (auto [v, end] = vertices(forest_); v != end; ++v)
@@ -47,24 +47,16 @@ void GrowingSupports::connect(std::size_t a, std::size_t b) {
     enter(a, b);
 }
 
-bool GrowingSupports::covers(Point p, double radius) const {
-    // In doubles, right to 2^-50 of the squares: far below the slack that the radius leaves, but for who asks without.
-    // A choice of what to grow; whether it holds is proved later.
-    if (radius < 0) return false;
-    const double r2 = radius * radius;
+bool GrowingSupports::covers(Point p, Unit radius) const {
+    return grid_.any_near(
+        p, [&](std::uint32_t w) { return walls_[w].alive && compare_distance(p, segment(w), radius) <= 0; });
+}
+
+bool GrowingSupports::covers_around(Point p, double size, Unit radius) const {
+    const double least = static_cast<double>(radius) - size;
+    if (least < 0) return false;
     return grid_.any_near(p, [&](std::uint32_t w) {
-        if (!walls_[w].alive) return false;
-        const Segment& s = segment(w);
-        const double ux = static_cast<double>(s.b.x - s.a.x), uy = static_cast<double>(s.b.y - s.a.y);
-        const double vx = static_cast<double>(p.x - s.a.x), vy = static_cast<double>(p.y - s.a.y);
-        const double along = ux * vx + uy * vy, l2 = ux * ux + uy * uy;
-        if (along <= 0) return vx * vx + vy * vy <= r2;
-        if (along >= l2) {
-            const double wx = vx - ux, wy = vy - uy;
-            return wx * wx + wy * wy <= r2;
-        }
-        const double c = ux * vy - uy * vx;
-        return c * c <= r2 * l2;
+        return walls_[w].alive && squared_distance(p, segment(w)).value() <= least * least;
     });
 }
 

@@ -15,8 +15,11 @@ public:
     GrowingSupports(SupportForest forest, const Box& cavity_box, const CavityBoundary& boundary,
                     const Settings& settings);
 
-    /// Is p within `radius` (units, at most r + ρ) of a wall? Nothing is within a negative radius.
-    bool covers(Point p, double radius) const;
+    /// Is p within `radius` (at most r + ρ) of a wall? Exact. Nothing is within a negative radius.
+    bool covers(Point p, Unit radius) const;
+    /// Does one wall cover all within `size` of p, with this radius? In doubles: with a `size` that is a unit too great
+    /// (UnsupportedCells::half_diagonal), far more than they are off, yes is certain.
+    bool covers_around(Point p, double size, Unit radius) const;
 
     /// Adds the wall that Section 4.3 gives to p: to the nearest point of B_i ∪ S_i under equation (4) with this bonus.
     /// Precondition: p lies strictly inside the cavity. Postcondition: covers(p, 0) up to rounding.

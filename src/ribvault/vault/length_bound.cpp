@@ -19,7 +19,7 @@ double LengthBound::next(const Cavity& cavity, const Region& overhang, const Cav
     std::vector<std::pair<double, std::size_t>> bounds;
     for (std::size_t k = 0; k < hanging_.size(); ++k) {
         Hanging& h = hanging_[k];
-        const auto reach = static_cast<double>(settings.support_width / 2 + h.layers * settings.support_radius);
+        const auto reach = static_cast<double>(settings.half_width() + h.layers * settings.support_radius);
         h.region = clip(ClipperLib::ctIntersection, h.region,
                         offset(cavity.region, -reach - margin, ClipperLib::jtRound, margin / 3.0));
         bounds.emplace_back(std::max(0.0, signed_area(h.region)) / (2 * reach), k);

@@ -31,9 +31,9 @@ SupportForest clip_again(const SupportForest& forest, const CavityBoundary& boun
 Region within_reach(const Region& region, const Region& walls, const Settings& settings) {
     if (region.empty() || walls.empty()) return {};
     const double slack = static_cast<double>(settings.slack);
-    return clip(ClipperLib::ctIntersection, region,
-                offset(walls, static_cast<double>(settings.support_width / 2 + settings.support_radius) - 3 * slack,
-                       ClipperLib::jtRound, slack));
+    return clip(
+        ClipperLib::ctIntersection, region,
+        offset(walls, static_cast<double>(settings.reach_of_support()) - 3 * slack, ClipperLib::jtRound, slack));
 }
 
 /// What of the layer above neither the supports nor the shell hold up; where the object holds up none, what the
@@ -71,7 +71,7 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         boundary.free_trees = cavity.outside || settings.pillars;
         // A cavity's floor is not known here; it is no lower than this.
         if (!cavity.outside) boundary.layers_below = std::max(0, cavity.layer - settings.bottom_layers);
-        const bool shell_holds_tracks = boundary.rooted && settings.support_radius >= settings.support_width / 2;
+        const bool shell_holds_tracks = boundary.rooted && settings.support_radius >= settings.half_width();
         CopiedSupports copied = copy_supports(above, boundary, shell_holds_tracks);
         if (boundary.free_trees) root_trees(copied.forest);
         if (settings.pillars)

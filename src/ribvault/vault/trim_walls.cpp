@@ -12,7 +12,7 @@ void trim_walls(GrowingSupports& supports, const UnsupportedCells& unsupported, 
         const Segment whole = supports.segment_of(wall);
         Box reach;
         reach.add(whole.a), reach.add(whole.b);
-        reach.grow(settings.support_width / 2 + settings.support_radius);
+        reach.grow(settings.reach_of_support());
         supports.remove(wall);
         const std::vector<std::size_t> open = unsupported.uncovered(reach, supports);
         if (open.empty()) continue;

@@ -15,8 +15,8 @@ Unit floor_div(Unit a, Unit b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
 UnsupportedCells::UnsupportedCells(const Region& unsupported, const Settings& settings)
     : pitch_(settings.sampling_pitch),
-      radius_(static_cast<double>(settings.support_width / 2 + settings.support_radius)),
-      slack_(static_cast<double>(settings.slack)),
+      radius_(settings.reach_of_support()),
+      slack_(settings.slack),
       location_(edges_of(unsupported), settings.sampling_pitch) {
     const Unit size = cell_pixels * pitch_;
     const Box& box = location_.box();

@@ -52,18 +52,18 @@ private:
             return false;
         const Point c = centre(box);
         const double half = half_diagonal(box);
-        if (supports.covers(c, radius_ - half)) return false;
+        if (supports.covers_around(c, half, radius_)) return false;
         if (edges) edges = location_.edge_meets(box), side = location_.locate(c);
         if (!edges && side == Side::outside) return false;
-        if (!supports.covers(c, radius_ - slack_) && (side != Side::outside || half <= slack_)) return found(c);
+        if (!supports.covers(c, radius_ - slack_) && (side != Side::outside || half <= static_cast<double>(slack_)))
+            return found(c);
         for (const Box& part : {Box{box.lo, c}, Box{{c.x, box.lo.y}, {box.hi.x, c.y}},
                                 Box{{box.lo.x, c.y}, {c.x, box.hi.y}}, Box{c, box.hi}})
             if (search(part, window, supports, edges, side, found)) return true;
         return false;
     }
 
-    Unit pitch_;
-    double radius_, slack_;
+    Unit pitch_, radius_, slack_;
     PointLocation location_;
     std::vector<Cell> cells_;
     std::map<std::pair<Unit, Unit>, std::size_t> cell_at_;  ///< by row and column
