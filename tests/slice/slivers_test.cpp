@@ -66,6 +66,26 @@ TEST_CASE("a gap that the lattice does not tell is closed, one that it does stay
     CHECK(without_slivers(apart).rounded.size() == 2);
 }
 
+TEST_CASE("sharp corners elsewhere keep their tips", "[slivers]") {
+    for (const double degrees : {90.0, 20.0, 5.0, 1.0, 0.2})
+        for (int k = 0; k < 20; ++k) {
+            const double half = degrees * M_PI / 360, turn = 0.3 * k;
+            const auto at = [&](double along, double angle) {
+                return std::pair{50 + along * std::cos(turn + angle), 40 + along * std::sin(turn + angle)};
+            };
+            const auto [x, y] = at(10, half);
+            const auto [u, v] = at(10, -half);
+            const Slice slice = slice_of({rectangle(0, 0, 10, 10, 0.3), rectangle(10.0001, 0, 20, 10, 0.3),
+                                          contour({{50, 40}, {u, v}, {x, y}})});
+            REQUIRE(has_slivers(slice));
+            double off = HUGE_VAL;
+            for (const Contour& c : without_slivers(slice).rounded)
+                for (const Point p : c) off = std::min(off, length(p - Point{5000000, 4000000}));
+            INFO(degrees << " " << k << " " << off);
+            CHECK(off < 2 / std::sin(half) + 2);  // units: its sides are at most so much off
+        }
+}
+
 TEST_CASE("contours without area and spikes go, whatever their orientation", "[slivers]") {
     for (const bool below : {false, true}) {
         // The lowest contour tells Clipper what is inside.

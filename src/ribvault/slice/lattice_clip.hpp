@@ -81,10 +81,11 @@ inline Region offset(const std::vector<Segment>& lines, double distance, double 
     return offset_lines(each, distance, arc_tolerance);
 }
 
-/// Region moved outwards (delta > 0) or inwards (delta < 0) by |delta| units.
+/// Region moved outwards (delta > 0) or inwards (delta < 0) by |delta| units. Mitres reach at most `mitre_limit` times
+/// as far; corners that need more are cut.
 inline Region offset(const Region& region, double delta, ClipperLib::JoinType join = ClipperLib::jtSquare,
-                     double arc_tolerance = 25) {
-    ClipperLib::ClipperOffset offsetter(2.0, arc_tolerance);
+                     double arc_tolerance = 25, double mitre_limit = 2) {
+    ClipperLib::ClipperOffset offsetter(mitre_limit, arc_tolerance);
     offsetter.AddPaths(to_clipper(region), join, ClipperLib::etClosedPolygon);
     ClipperLib::Paths result;
     offsetter.Execute(result, delta);
