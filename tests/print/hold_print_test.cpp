@@ -288,9 +288,9 @@ TEST_CASE("what hangs outside the outline is measured, not patched") {
     CHECK(held.patches == 0);
     const PrintVerdict verdict = judge_print(above, *held.printed, {});
     CHECK(verdict.supported);
-    CHECK(verdict.external_mm[0] <= 4);
-    CHECK(verdict.external_mm[1] >= 4);
-    CHECK(verdict.external_mm[1] == Approx(4));
+    CHECK(verdict.external_mm.lo <= 4);
+    CHECK(verdict.external_mm.hi >= 4);
+    CHECK(verdict.external_mm.hi == Approx(4));
 }
 
 TEST_CASE("a verdict does not believe what mending said: a track taken away afterwards is noticed") {
@@ -300,7 +300,7 @@ TEST_CASE("a verdict does not believe what mending said: a track taken away afte
     std::erase_if(less.tracks, [](const PrintedTrack& t) { return t.feature == static_cast<int>(TrackKind::support); });
     const PrintVerdict verdict = judge_print(above, less, {});
     CHECK_FALSE(verdict.supported);
-    CHECK(verdict.unsupported_mm[0] > 8);
+    CHECK(verdict.unsupported_mm.lo > 8);
 }
 
 TEST_CASE("steps below 5 um are left out, a path shorter than that is a dot, ends stay") {

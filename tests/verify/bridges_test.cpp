@@ -16,7 +16,7 @@ PrintedTrack track(double x0, double y0, double x1, double y1) {
 /// Piers from x = 0 to 2 and from x = 8 to 10.
 PrintedLayer piers() { return {{track(0, 0, 2, 0), track(8, 0, 10, 0)}}; }
 
-std::vector<Bridge> bridges(const PrintedLayer& upper, const std::vector<char>& continues, double longest,
+std::vector<Bridge> bridges(const PrintedLayer& upper, const std::vector<char>& continues, const Rational& longest,
                             const std::vector<char>& judged = {}) {
     PrintedOptions lines;
     lines.areas = lines.regions = false;
@@ -28,9 +28,9 @@ std::vector<Bridge> bridges(const PrintedLayer& upper, const std::vector<char>& 
 
 TEST_CASE("a straight span between two piers is a bridge up to its length", "[bridges]") {
     const PrintedLayer upper{{track(0, 0, 10, 0)}};
-    REQUIRE(bridges(upper, {0}, 5.21).size() == 1);
-    CHECK(bridges(upper, {0}, 5.21)[0].length_mm == Approx(5.2));
-    CHECK(bridges(upper, {0}, 5.19).empty());
+    CHECK(bridges(upper, {0}, 6)[0].length_mm == Approx(5.2));
+    CHECK(bridges(upper, {0}, Rational(26, 5)).size() == 1);
+    CHECK(bridges(upper, {0}, Rational(Rational(26, 5) - power_of_two(-150))).empty());
 }
 
 TEST_CASE("a span exactly as long as the limit is a bridge, wherever it lies", "[bridges]") {
@@ -43,9 +43,21 @@ TEST_CASE("a span exactly as long as the limit is a bridge, wherever it lies", "
             lines.areas = lines.regions = false;
             const PrintedVerdict verdict = verify_printed(upper, lower, radius, lines);
             CAPTURE(x, limit);
-            CHECK(find_bridges(upper, {0}, {}, verdict, limit).size() == 1);
-            CHECK(find_bridges(upper, {0}, {}, verdict, limit - 1e-6).empty());
+            CHECK(find_bridges(upper, {0}, {}, verdict, Rational(limit)).size() == 1);
+            CHECK(find_bridges(upper, {0}, {}, verdict, Rational(Rational(limit) - power_of_two(-150))).empty());
         }
+}
+
+TEST_CASE("a slanted span is measured to many digits", "[bridges]") {
+    // Along (1, 1): the span is 6 sqrt(2) less both reaches of 0.4, an irrational length.
+    const PrintedLayer upper{{track(0, 0, 10, 10)}}, lower{{track(0, 0, 2, 2), track(8, 8, 10, 10)}};
+    PrintedOptions lines;
+    lines.areas = lines.regions = false;
+    const PrintedVerdict verdict = verify_printed(upper, lower, radius, lines);
+    const mpf_class exact = 6 * sqrt(mpf_class(2, 400)) - mpf_class("0.8", 400);
+    const Rational close(exact), hair = power_of_two(-150);
+    CHECK(find_bridges(upper, {0}, {}, verdict, Rational(close + hair)).size() == 1);
+    CHECK(find_bridges(upper, {0}, {}, verdict, Rational(close - hair)).empty());
 }
 
 TEST_CASE("a bridge may have joints, if it is straight", "[bridges]") {
@@ -69,7 +81,12 @@ TEST_CASE("a cantilever is no bridge", "[bridges]") {
 
 TEST_CASE("a track that is not judged holds no bridge", "[bridges]") {
     const PrintedLayer upper{{track(0, 0, 2.4, 0), track(2.4, 0, 10, 0)}};
-    CHECK(bridges(upper, {0, 1}, 6, {0, 1}).size() <= 1);
+    CHECK(bridges(upper, {0, 1}, 6).size() == 1);
+    CHECK(bridges(upper, {0, 1}, 6, {0, 1}).size() == 1);  // 2.4 as a double is below 12/5: a hair of it is held up
+    const Rational edge(12, 5);
+    const PrintedLayer exactly{{{{0, 0}, {edge, 0}, width, 0, 0}, {{edge, 0}, {10, 0}, width, 0, 0}}};
+    CHECK(bridges(exactly, {0, 1}, 6).size() == 1);
+    CHECK(bridges(exactly, {0, 1}, 6, {0, 1}).empty());
     const PrintedLayer late{{track(0, 0, 3, 0), track(3, 0, 10, 0)}};
     CHECK(bridges(late, {0, 1}, 6).size() == 1);
     CHECK(bridges(late, {0, 1}, 6, {0, 1}).empty());

@@ -71,7 +71,7 @@ PrintedLayer without_bridges(const GcodeLayer& layer, PrintedLayer upper, const 
     const PrintedVerdict verdict = verify_printed(upper, lower, rules.support_radius, lines_only);
     result.layer.stages += verdict.stages;
     const std::vector<char> continues = continued_tracks(layer);
-    const std::vector<Bridge> bridges = find_bridges(upper, continues, judged, verdict, rules.longest_bridge->get_d());
+    const std::vector<Bridge> bridges = find_bridges(upper, continues, judged, verdict, *rules.longest_bridge);
     if (bridges.empty()) return upper;
     for (const Bridge& bridge : bridges)
         for (const std::size_t k : bridge.pieces) {
@@ -95,7 +95,8 @@ void add_verdict(PrintedVerdict more, PrintedVerdict& verdict) {
     verdict.centre_lines_supported = verdict.centre_lines_supported && more.centre_lines_supported;
     verdict.supported = verdict.supported && more.supported;
     for (std::size_t k = 0; k < more.unsupported_length.size(); ++k)
-        for (const std::size_t end : {0, 1}) verdict.unsupported_length[k][end] += more.unsupported_length[k][end];
+        verdict.unsupported_length[k] = {sum_down(verdict.unsupported_length[k][0], more.unsupported_length[k][0]),
+                                         sum_up(verdict.unsupported_length[k][1], more.unsupported_length[k][1])};
     std::move(more.pieces.begin(), more.pieces.end(), std::back_inserter(verdict.pieces));
     std::stable_sort(verdict.pieces.begin(), verdict.pieces.end(),
                      [](const UnsupportedPiece& a, const UnsupportedPiece& b) { return a.track < b.track; });

@@ -47,10 +47,8 @@ void add_verdict(const LayerVerdict& more, LayerVerdict& verdict) {
 void add_verdict(const PrintVerdict& more, PrintVerdict& verdict) {
     if (verdict.supported && !more.supported) verdict.place = more.place;
     verdict.supported = verdict.supported && more.supported;
-    for (const std::size_t k : {0, 1}) {
-        verdict.unsupported_mm[k] += more.unsupported_mm[k];
-        verdict.external_mm[k] += more.external_mm[k];
-    }
+    verdict.unsupported_mm += more.unsupported_mm;
+    verdict.external_mm += more.external_mm;
     verdict.external_hangs = verdict.external_hangs || more.external_hangs;
     verdict.stages += more.stages;
 }

@@ -57,9 +57,9 @@ std::vector<PrintedTrack> chosen(const std::vector<PrintedTrack>& tracks, const 
     return result;
 }
 
-std::array<double, 2> sum(const std::vector<std::array<double, 2>>& lengths) {
-    std::array<double, 2> total{0, 0};
-    for (const std::array<double, 2>& l : lengths) total[0] += l[0], total[1] += l[1];
+Enclosure sum(const std::vector<std::array<double, 2>>& lengths) {
+    Enclosure total;
+    for (const auto& [lo, hi] : lengths) total += {lo, hi};
     return total;
 }
 

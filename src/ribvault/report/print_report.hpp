@@ -11,16 +11,6 @@
 
 namespace ribvault {
 
-/// A number known to lie between two bounds.
-struct Enclosure {
-    double lo = 0, hi = 0;
-    double middle() const { return (lo + hi) / 2; }
-    Enclosure& operator+=(const Enclosure& o) {
-        lo += o.lo, hi += o.hi;
-        return *this;
-    }
-};
-
 /// A stretch of a centre line that violates equation (1), or a bridge.
 struct HangingPiece {
     std::int64_t line = 0;                ///< of the file

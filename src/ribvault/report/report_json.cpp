@@ -14,6 +14,9 @@ double measured(double value) {
     return rounded == 0 ? 0 : rounded;  // no -0
 }
 
+/// Bounds are not rounded: the statement is about these very numbers.
+Json bounds(const Enclosure& e) { return {e.lo, e.hi}; }
+
 Json facts(const MeshFacts& f) {
     return {{"triangles", f.triangles},
             {"vertices", f.vertices},
@@ -163,8 +166,8 @@ Json verdict(const LayerVerdict& v) {
 
 Json print_verdict(const PrintVerdict& v) {
     return {{"supported", v.supported},
-            {"unsupported_mm", v.unsupported_mm},
-            {"external_mm", v.external_mm},
+            {"unsupported_mm", bounds(v.unsupported_mm)},
+            {"external_mm", bounds(v.external_mm)},
             {"place_mm", v.supported ? Json(nullptr) : Json(v.place)},
             {"stages", stages(v.stages)}};
 }
@@ -229,8 +232,8 @@ Json summary(const VerdictSummary& v) {
             {"print",
              {{"proved", v.print_proved},
               {"layers_refuted", v.print_layers_refuted},
-              {"unsupported_mm", v.print_unsupported_mm},
-              {"external_mm", v.print_external_mm},
+              {"unsupported_mm", bounds(v.print_unsupported_mm)},
+              {"external_mm", bounds(v.print_external_mm)},
               {"layers_over_narrow_places", v.layers_over_narrow_places},
               {"stages", stages(v.print_stages)}}}};
 }

@@ -56,10 +56,8 @@ void sum_up(RunReport& report) {
         if (!layer.print.supported) v.print_layers_refuted.push_back(layer.layer);
         if (layer.print.external_hangs && !layer.verdict.external && !report.settings.outside())
             v.layers_over_narrow_places.push_back(layer.layer);
-        for (const std::size_t k : {0, 1}) {
-            v.print_unsupported_mm[k] += layer.print.unsupported_mm[k];
-            v.print_external_mm[k] += layer.print.external_mm[k];
-        }
+        v.print_unsupported_mm += layer.print.unsupported_mm;
+        v.print_external_mm += layer.print.external_mm;
         v.print_stages += layer.print.stages;
     }
     t.material_mm3 = t.shell_volume_mm3 + t.support_volume_mm3 + t.external_support_volume_mm3;

@@ -113,8 +113,7 @@ struct VerdictSummary {
     StageCounts stages;
     bool print_proved = false;  ///< what is extruded satisfies (2) on every layer, inside the outline below
     std::vector<int> print_layers_refuted;
-    std::array<double, 2> print_unsupported_mm{0, 0};  ///< enclosures of lengths of centre lines, sums over the layers
-    std::array<double, 2> print_external_mm{0, 0};
+    Enclosure print_unsupported_mm, print_external_mm;  ///< of lengths of centre lines, sums over the layers
     /// Layers whose print hangs outside the outline of the print below though the slice does not hang outside the slice
     /// below: that is too narrow there for a closed perimeter. None with external supports, where all is judged.
     std::vector<int> layers_over_narrow_places;

@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace ribvault {
 namespace {
 
 constexpr double straight_mm = 0.01;
-/// Ends are known in doubles, rounded outward: a span as long as the limit must not fail by the rounding.
-constexpr double rounding = 0x1p-40;
-constexpr double joint = 1e-9;  // mm: a piece that comes so near to its track's end reaches it
-
 using Vector = std::array<double, 2>;
 
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
@@ -29,11 +24,6 @@ Vector along(const PrintedTrack& t, double mm) {
     const double whole = norm(d);
     if (whole == 0) return a;
     return {a[0] + mm / whole * d[0], a[1] + mm / whole * d[1]};
-}
-
-bool starts_at_joint(const UnsupportedPiece& p) { return p.from_mm < joint; }
-bool ends_at_joint(const PrintedLayer& upper, const UnsupportedPiece& p) {
-    return p.to_mm > length(upper.tracks[p.track]) - joint;
 }
 
 /// All points in order along the straight line from the first to the last, to within straight_mm.
@@ -54,7 +44,8 @@ bool is_straight(const std::vector<Vector>& points) {
 }  // namespace
 
 std::vector<Bridge> find_bridges(const PrintedLayer& upper, const std::vector<char>& continues,
-                                 const std::vector<char>& judged, const PrintedVerdict& verdict, double longest) {
+                                 const std::vector<char>& judged, const PrintedVerdict& verdict,
+                                 const Rational& longest) {
     std::vector<Bridge> bridges;
     const auto& pieces = verdict.pieces;
     const auto joined = [&](std::size_t track) { return track < upper.tracks.size() && continues[track] != 0; };
@@ -62,23 +53,21 @@ std::vector<Bridge> find_bridges(const PrintedLayer& upper, const std::vector<ch
     for (std::size_t first = 0, last = 0; first < pieces.size(); first = last + 1) {
         last = first;
         std::vector<Vector> points{along(upper.tracks[pieces[first].track], pieces[first].from_mm)};
-        double sum = pieces[first].to_mm - pieces[first].from_mm;
+        Rational most = pieces[first].length[1];
         while (last + 1 < pieces.size() && pieces[last + 1].track == pieces[last].track + 1 &&
-               joined(pieces[last + 1].track) && ends_at_joint(upper, pieces[last]) &&
-               starts_at_joint(pieces[last + 1])) {
+               joined(pieces[last + 1].track) && pieces[last].to_end && pieces[last + 1].from_start) {
             ++last;
             points.push_back(place(upper.tracks[pieces[last].track].a));
-            sum += pieces[last].to_mm - pieces[last].from_mm;
+            most += pieces[last].length[1];
         }
         points.push_back(along(upper.tracks[pieces[last].track], pieces[last].to_mm));
         const std::size_t before = pieces[first].track, after = pieces[last].track + 1;
-        const bool held_before =
-            !starts_at_joint(pieces[first]) || (joined(before) && before > 0 && is_judged(before - 1));
-        const bool held_after = !ends_at_joint(upper, pieces[last]) || (joined(after) && is_judged(after));
-        if (!held_before || !held_after || sum > longest * (1 + rounding) || !is_straight(points)) continue;
+        const bool held_before = !pieces[first].from_start || (joined(before) && before > 0 && is_judged(before - 1));
+        const bool held_after = !pieces[last].to_end || (joined(after) && is_judged(after));
+        if (!held_before || !held_after || most > longest || !is_straight(points)) continue;
         Bridge bridge;
         for (std::size_t k = first; k <= last; ++k) bridge.pieces.push_back(k);
-        bridge.length_mm = std::nextafter(sum, std::numeric_limits<double>::infinity());
+        bridge.length_mm = std::nextafter(most.get_d(), HUGE_VAL);
         bridges.push_back(std::move(bridge));
     }
     return bridges;

@@ -11,8 +11,8 @@ namespace ribvault {
 struct ExactPolygons;  // slice/exact_polygons.hpp
 
 /// The first of `tracks` (centre lines, lattice) that is not outside O_i, or nearer to it than `distance` (lattice
-/// units; equal is far enough); nothing when all keep off. Exact. A box filter, then rational distances: linear in the
-/// tracks times the edges.
+/// units, > 0; equal is far enough); nothing when all keep off. Exact. A box filter, then rational distances: linear in
+/// the tracks times the edges.
 std::optional<Segment> find_too_near(const ExactPolygons& outline, const std::vector<Segment>& tracks, Unit distance);
 
 /// The first of `tracks` that is nearer than `distance` to one of `object`, centre lines both; nothing when all keep

@@ -15,7 +15,7 @@ namespace ribvault::verify {
 std::vector<Stretch> lane_gaps(const TrackFrame& frame, double half, std::span<const FrameStadium> below,
                                double margin);
 
-/// The parts of [from, to] outside the closed stretches, which are sorted.
+/// The parts of [from, to] outside the closed stretches `covered`, by increasing place. Sorts `covered`.
 void uncovered_stretches(std::vector<Stretch>& covered, double from, double to, std::vector<Stretch>& gaps);
 
 }  // namespace ribvault::verify

@@ -127,8 +127,7 @@ void build_local_problem(std::span<const PrintedTrack> upper, std::span<const in
     local.sites.clear();
     for (const int k : below.which) {
         const auto i = static_cast<std::size_t>(k);
-        // The root cell is 1.0173 times as large as the window, off its middle by 0.0137.
-        const double reach = below.radii[i].get_d() + 1.5 * square.half + window_slack(margin);
+        const double reach = below.radii[i].get_d() + root_cell_reach * square.half + window_slack(margin);
         if (centre_distance(below.prepared[i], square.x, square.y) <= reach) local.sites.push_back(k);
     }
     Lengths lengths;

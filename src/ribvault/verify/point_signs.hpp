@@ -26,7 +26,7 @@ int crossings(std::span<const Edge> all, std::span<const int> which, double from
 /// The point (x, y) of a problem, for the predicates above. Coordinates in lattice units, exactly these binary floats.
 Located double_point(const CoverProblem& problem, double x, double y);
 
-/// Whether intervals certify that (x, y) is on none of the lines of all[which...].
+/// Whether (x, y) is on none of the lines of all[which...]. Exact.
 bool off_lines(const CoverProblem& problem, std::span<const Edge> all, std::span<const int> which, double x, double y);
 
 }  // namespace ribvault::verify

@@ -34,7 +34,7 @@ void build_part_problem(const PrintedPair& pair, const OpenPart& part, LocalProb
     const Square square{(piece.ax + piece.bx) / 2, (piece.ay + piece.by) / 2,
                         std::max(std::abs(piece.dx), std::abs(piece.dy)) / 2 + piece.half + 4 * pair.margin};
     std::vector<int> near;
-    pair.grid.near(piece, piece.half + 2 * window_slack(pair.margin) + square.half, near);
+    pair.grid.near(square.x, square.y, root_cell_reach * square.half + 2 * window_slack(pair.margin), near);
     const Below below{pair.lower, pair.below, pair.radii, near, {}};
     const int pieces[] = {0};
     build_local_problem({part.piece ? &*part.piece : &pair.upper[static_cast<std::size_t>(part.track)], 1}, pieces,

@@ -155,7 +155,7 @@ void build_trace_problem(TraceProblem& trace, std::span<const int> tracks, std::
     const Square square{(lo_x + hi_x) / 2, (lo_y + hi_y) / 2,
                         std::max(hi_x - lo_x, hi_y - lo_y) / 2 + 8 * trace.margin};
     std::vector<int> which;
-    pair.grid.near(square.x, square.y, 1.5 * square.half + 2 * window_slack(trace.margin), which);
+    pair.grid.near(square.x, square.y, root_cell_reach * square.half + 2 * window_slack(trace.margin), which);
     const Below below{pair.lower, pair.below, pair.radii, which, {}};
     build_local_problem(pair.upper, distinct(pair, tracks), below, square, trace.margin, trace.local);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,6 +21,21 @@ struct StageCounts {
     }
 };
 
+/// Bounds of sums: below and above a + b for a, b >= 0, and a + b where one of them is 0.
+inline double sum_down(double a, double b) { return a == 0 || b == 0 ? a + b : std::nextafter(a + b, 0.0); }
+inline double sum_up(double a, double b) { return a == 0 || b == 0 ? a + b : std::nextafter(a + b, HUGE_VAL); }
+
+/// A number >= 0 known to lie between two bounds.
+struct Enclosure {
+    double lo = 0, hi = 0;
+    double middle() const { return (lo + hi) / 2; }
+    Enclosure& operator+=(const Enclosure& o) {
+        lo = sum_down(lo, o.lo), hi = sum_up(hi, o.hi);
+        return *this;
+    }
+    friend bool operator==(const Enclosure&, const Enclosure&) = default;
+};
+
 /// A region of the upper layer with no material within ρ below.
 struct Unsupported {
     double area_lo = 0, area_hi = 0;         ///< mm², enclosure of the region's area
@@ -32,9 +48,8 @@ struct Unsupported {
 /// material extruded on layer i within ρ (verify/outside_outline.hpp).
 struct PrintVerdict {
     bool supported = true;
-    std::array<double, 2> unsupported_mm{
-        0, 0};  ///< enclosure of the length of centre lines that violate (1) inside the outline
-    std::array<double, 2> external_mm{0, 0};     ///< the same outside it
+    Enclosure unsupported_mm;                    ///< of the length of centre lines that violate (1) inside the outline
+    Enclosure external_mm;                       ///< the same outside it
     bool external_hangs = false;                 ///< a centre line outside it violates (1), or a dot's centre does
     std::array<double, 2> place{0, 0};           ///< near something unsupported, mm
     StageCounts stages;
@@ -43,11 +58,12 @@ struct PrintVerdict {
 /// Equation (2) for layers i (upper) and i - 1 (below).
 struct LayerVerdict {
     int layer = 0;                           ///< the upper layer, i
-    bool supported = false;                  ///< proved: BS_i minus external overhangs lies within ρ of BS_{i-1}
+    bool supported = false;  ///< proved, of what supports can hold up: without external ones all but external
+                             ///< overhangs, with such all (verify/verify_layer.hpp)
     std::string malformed;  ///< why (2) has no meaning here (a cavity not inside its slice), which support breaks the
                             ///< removal gap, or empty
-    std::optional<Unsupported> internal;     ///< refuted: what internal supports should have held up
-    std::optional<Unsupported> external;     ///< farther than ρ from O_{i-1}: outside what internal supports can reach
+    std::optional<Unsupported> internal;  ///< refuted: what supports should have held up
+    std::optional<Unsupported> external;  ///< farther than ρ from O_{i-1} where no external supports are asked for
     StageCounts stages;
 };
 

@@ -35,6 +35,9 @@ std::vector<Edge> add_segments(const std::vector<Segment>& segments, std::vector
     for (const Segment& s : segments) points.push_back(s.a), points.push_back(s.b);
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
+    for (const Point p : points)
+        if (std::abs(p.x) > lattice_bound || std::abs(p.y) > lattice_bound)
+            throw Error(ErrorKind::usage, "verify_layer: a point is farther than 10 m from the origin");
     const int first = static_cast<int>(vertices.size());
     for (const Point p : points) vertices.push_back(lattice_vertex(p));
     const auto index = [&](Point p) {
@@ -140,8 +143,7 @@ LayerVerdict verify_layer(int upper_layer, const LayerGeometry& upper, const Lay
         throw Error(ErrorKind::usage, "the verifier needs the outline and the cavity of both layers (layer " +
                                           std::to_string(upper_layer) + "); pass an empty cavity where there is none");
     const CGAL::Protect_FPU_rounding<true> upward;
-    const double rho = static_cast<double>(settings.support_radius),
-                 r = static_cast<double>(settings.support_width / 2);
+    const double rho = static_cast<double>(settings.support_radius), r = static_cast<double>(settings.half_width());
     LayerVerdict verdict;
     verdict.layer = upper_layer;
     std::vector<Vertex> vertices;

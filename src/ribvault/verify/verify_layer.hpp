@@ -19,17 +19,18 @@ struct LayerGeometry {
 };
 
 /// Decides BS_{i+1} inside (BS_i)^{ρ↑} (MODEL, equation (2)) for `upper` = layer i + 1 over `lower` = layer i, with
-/// ρ = settings.support_radius and r = settings.support_width / 2, half the width of the tracks S_i. No sampling and no
+/// ρ = settings.support_radius and r = settings.half_width(), half the width of the tracks S_i. No sampling and no
 /// tolerance: "supported" is a proof, and every "unsupported" names a point (docs/verifier.md has the argument). What
-/// hangs outside O_i by more than ρ is
-/// `external` and does not make `supported` false, unless settings.outside(): then tracks hold it up as well as what is
-/// inside, and what they do not is not supported. With a removal gap g "supported" says that every point outside O_i is
-/// within r + ρ of a track or within settings.reach_of_object() = max(ρ, g + r) of O_i: no track may stand nearer.
+/// hangs outside O_i by more than ρ is `external` and does not make `supported` false, unless settings.outside(): then
+/// tracks hold it up as well as what is inside, and what they do not is not supported. With a removal gap g "supported"
+/// says that every point outside O_i is within r + ρ of a track or within settings.reach_of_object() = max(ρ, g + r) of
+/// O_i: no track may stand nearer.
 /// `external` is all the same what is farther than ρ, unless something is farther than that reach: then it is what is.
 /// Everything else that is not held up is `internal`. A cavity whose contours cross, or that is not in the interior of
 /// its slice, gives `malformed` and not supported.
 ///
-/// Precondition: the pointers are valid, ρ > 0, support_width > 0 and even. Throws Error (usage) otherwise.
+/// Precondition: the pointers are valid, ρ > 0, support_width > 0 and even, lattice points within lattice_bound. Throws
+/// Error (usage) otherwise.
 /// May be called from several threads at once on shared input.
 ///
 ///     LayerGeometry below{slices[i].exact.get(), &cavities[i], centre_lines(forests[i])};

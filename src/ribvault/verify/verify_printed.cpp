@@ -133,6 +133,7 @@ void Judge::report_gap(const CentreGap& gap) {
     const PreparedTrack& t = pair_.above[track_];
     UnsupportedPiece piece;
     piece.track = track_;
+    piece.from_start = piece.to_end = true;
     std::array<double, 2>& total = verdict_.unsupported_length[track_];
     if (exact.a != exact.b) {
         // Lengths from squared ones: s = sqrt(t^2 |b - a|^2). Truncated quotients are below, the next double is above.
@@ -144,6 +145,15 @@ void Judge::report_gap(const CentreGap& gap) {
         const auto up = [&](const Rational& a) {
             return a <= 0 ? 0 : std::nextafter(enclose(QuadraticNumber{0, a, uu}, 80)[1].get_d(), HUGE_VAL);
         };
+        const auto bounds = [&](unsigned bits) {
+            const std::array<Rational, 2> from = enclose(gap.from, bits), to = enclose(gap.to, bits);
+            const Rational least = to[0] - from[1], most = to[1] - from[0];
+            return std::array{enclose(quadratic(0, least > 0 ? least : Rational(0), uu), bits)[0],
+                              enclose(quadratic(0, most, uu), bits)[1]};
+        };
+        piece.length = bounds(200);
+        piece.from_start = sign(gap.from) == 0;
+        piece.to_end = compare(gap.to, QuadraticNumber{1, 0, 0}) == 0;
         // Stretches shorter than their ends' digits need more of these.
         for (unsigned bits = 64;; bits *= 2) {
             const std::array<Rational, 2> from = enclose(gap.from, bits), to = enclose(gap.to, bits);
