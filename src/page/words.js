@@ -109,6 +109,9 @@ function layerVerdict(run, k) {
 
 function heading(run, k) { return `layer ${k}, z ${height(run.bottom(k))} to ${height(run.top(k))} mm: ${layerVerdict(run, k)}`; }
 
+/** Nothing is printed on a layer (but skirt and brim): no place of it has room for a track. */
+const isBare = n => n.perimeter_length_mm + n.cover_length_mm + n.thin_wall_length_mm + n.support_printed_length_mm + n.external_support_printed_length_mm === 0;
+
 /** What is proved of layer k. */
 function layerProof(run, k) {
   if (run.refuted(k))
@@ -139,7 +142,10 @@ function layerWords(run, k) {
     `${many(m.junctions.length, "junction")}, ${many(m.tips.length, "tip")}${m.dots.length ? ", " + many(m.dots.length, "dot") : ""}.`;
   const grown = places === 0 ? "Nothing new had to be held up." : `Newly supported for the layer ${whichAbove(run)}: ${many(places, "place")}, at most ${fixed(run.newArea(k), 2)} mm².`;
   const out = n.verdict.external;
-  return `${layerProof(run, k)} Shell of ${fixed(n.shell_volume_mm3, 2)} mm³. ${supports} ${grown}` +
+  const narrow = !n.thin_places ? "" : ` ${many(n.thin_places, "place")}, ${fixed(n.thin_area_mm2, 2)} mm² in all, ${n.thin_places === 1 ? "is" : "are"} too narrow for a track.`;
+  const mended = (n.closings.length > 0 ? ` ${many(n.closings.length, "gap")} in open contours ${n.closings.length === 1 ? "was" : "were"} closed.` : "") +
+    (n.slivers_removed ? " Slits and slivers narrower than 0.4 µm are gone." : "");
+  return `${layerProof(run, k)} ${isBare(n) ? "Nothing is printed on it." : `Shell of ${fixed(n.shell_volume_mm3, 2)} mm³.`} ${supports} ${grown}${narrow}${mended}` +
     (out ? ` Outside, ${range(out.area_mm2[0], out.area_mm2[1])} mm² ${run.outside ? "have no support" : "hang over the layer below"}.` : "") +
     (n.patch_in_gap ? " Tracks of the object come nearer to a support than the gap." : "");
 }
@@ -159,8 +165,12 @@ function worthALook(run) {
     return list;
   }
   for (const k of refuted.slice(0, 8)) list.push([k, "not proved"]);
+  const bare = of.filter(k => isBare(run.numbers(k)));
+  if (bare.length > 0) list.push([bare[0], bare.length === 1 ? "nothing is printed" : `nothing is printed, as on ${many(bare.length - 1, "layer")} more`]);
   most(k => run.numbers(k).support_length_mm, v => `most supports, ${fixed(v, 1)} mm`);
   most(k => run.numbers(k).trees, v => `most trees, ${v}`);
   most(k => run.numbers(k).verdict.external ? run.numbers(k).verdict.external.area_mm2[1] : 0, v => `${run.outside ? "most without support" : "largest overhang"} outside, up to ${fixed(v, 1)} mm²`);
+  most(k => run.numbers(k).thin_places || 0, v => `${many(v, "place")} too narrow to print`);
+  most(k => run.numbers(k).closings.length, v => `${many(v, "gap")} closed`);
   return list;
 }

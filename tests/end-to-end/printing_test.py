@@ -110,7 +110,7 @@ class Printing(unittest.TestCase):
         done = subprocess.run([PROGRAM, "generate", "tip.off", "-o", "a.gcode"], cwd=self.folder, capture_output=True, text=True)
         self.assertIn("begins in the air", done.stdout)
         first = re.search(r"^;LAYER:(\d+)\n;Z:(\S+)\n(?:(?!;LAYER:).*\n)*?;TYPE:", (self.folder / "a.gcode").read_text(), re.M)
-        self.assertIn("nothing is printed on %s layers, without room for a track (the lowest is layer 0)" % first.group(1), done.stdout)
+        self.assertRegex(done.stdout, r"nothing is printed on %s of \d+ layers, without room for a track \(the lowest is layer 0\): what is above" % first.group(1))
         done = subprocess.run([PROGRAM, "verify", "a.gcode"], cwd=self.folder, capture_output=True, text=True)
         self.assertIn("mm over z = 0", done.stderr)
         done = subprocess.run([PROGRAM, "generate", "tip.off", "-o", "a.gcode", "--skirt", "2"], cwd=self.folder, capture_output=True, text=True)
@@ -128,7 +128,25 @@ class Printing(unittest.TestCase):
         printed = [int(n) for n in re.findall(r"^;LAYER:(\d+)\n;Z:\S+\n(?:(?!;LAYER:).*\n)*?;TYPE:", (self.folder / "a.gcode").read_text(), re.M)]
         empty = sorted(set(range(max(printed))) - set(printed))
         self.assertGreater(len(empty), 1)
-        self.assertIn("nothing is printed on %d layers, without room for a track (the lowest is layer %d)" % (len(empty), empty[0]), done.stdout)
+        self.assertRegex(done.stdout, r"nothing is printed on %d of \d+ layers, without room for a track \(the lowest is layer %d\)" % (len(empty), empty[0]))
+
+    def test_a_print_of_which_only_the_floor_is_left_says_so(self):
+        """Walls of 0.1 mm on a plate: nothing is printed above the plate."""
+        corners = [(x, y, z) for z in (0, 1, 9) for x, y in ((0, 0), (20, 0), (20, 20), (0, 20), (0, 0.1), (20, 0.1))]
+        box = lambda a, b, c, d, e, f, g, h: [(a, d, c), (a, c, b), (e, f, g), (e, g, h), (a, b, f), (a, f, e), (b, c, g), (b, g, f), (c, d, h), (c, h, g), (d, a, e), (d, e, h)]
+        faces = box(0, 1, 2, 3, 6, 7, 8, 9) + box(6, 7, 11, 10, 12, 13, 17, 16)
+        (self.folder / "vase.off").write_text("OFF\n%d %d 0\n" % (len(corners), len(faces)) + "".join("%g %g %g\n" % c for c in corners) +
+                                              "".join("3 %d %d %d\n" % f for f in faces))
+        done = subprocess.run([PROGRAM, "generate", "vase.off", "--html", "a.html"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("nothing is printed on 40 of 45 layers, without room for a track (the lowest is layer 5)\n", done.stdout)
+
+    def test_no_output_takes_a_picture_s_name(self):
+        for output in ("-o", "--report"):
+            done = subprocess.run([PROGRAM, "generate", CUBE, output, "svg/layer_00003.svg", "--svg", "svg"], cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("svg/layer_00003.svg has the name of a picture in the folder of --svg", done.stderr)
+            self.assertFalse((self.folder / "svg").exists())
 
     def test_import_says_what_it_ignored(self):
         (self.folder / "prusa.ini").write_text("layer_height = 0.3\nperimeters = 2\nfill_density = 20%\nbed_shape = 0x0,200x0,200x180,0x180\n")

@@ -4,6 +4,7 @@
 
 #include "ribvault/error.hpp"
 #include "ribvault/output_file.hpp"
+#include "ribvault/pipeline/picture_folder.hpp"
 
 namespace ribvault {
 namespace {
@@ -21,7 +22,8 @@ bool is_one_file(const fs::path& a, const fs::path& b) {
 
 }  // namespace
 
-void check_outputs(const std::vector<fs::path>& inputs, const std::vector<NamedOutput>& outputs) {
+void check_outputs(const std::vector<fs::path>& inputs, const std::vector<NamedOutput>& outputs,
+                   const std::optional<fs::path>& pictures) {
     for (std::size_t k = 0; k < outputs.size(); ++k) {
         const auto& [option, file] = outputs[k];
         if (!file) continue;
@@ -29,6 +31,10 @@ void check_outputs(const std::vector<fs::path>& inputs, const std::vector<NamedO
             if (is_one_file(*file, input))
                 throw Error(ErrorKind::usage, option + " " + file->string() +
                                                   " is an input, which would be lost; give the output another name");
+        if (pictures && is_picture_name(file->filename().string()) && is_one_file(*file, *pictures / file->filename()))
+            throw Error(ErrorKind::usage,
+                        option + " " + file->string() +
+                            " has the name of a picture in the folder of --svg; give it another name");
         for (std::size_t other = 0; other < k; ++other)
             if (outputs[other].file && is_one_file(*file, *outputs[other].file))
                 throw Error(ErrorKind::usage, option + " " + file->string() + " is the file of " +

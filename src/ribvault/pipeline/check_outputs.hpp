@@ -16,7 +16,9 @@ struct NamedOutput {
 
 /// Throws Error (usage) when an output is the file of an input or of another output, through symbolic links as well.
 /// (A second hard link is another file: outputs take a name's place, they do not write into what is there.) What exists
-/// and is no regular file (a device, a pipe) may be several outputs.
-void check_outputs(const std::vector<std::filesystem::path>& inputs, const std::vector<NamedOutput>& outputs);
+/// and is no regular file (a device, a pipe) may be several outputs. Nor may an output have the name of a picture in
+/// the folder for `pictures`: those of earlier runs are removed there.
+void check_outputs(const std::vector<std::filesystem::path>& inputs, const std::vector<NamedOutput>& outputs,
+                   const std::optional<std::filesystem::path>& pictures = {});
 
 }  // namespace ribvault

@@ -37,11 +37,13 @@ public:
         check_printer(job_.printer);
         std::vector<std::filesystem::path> inputs = job_.settings_files;
         inputs.push_back(job_.model);
-        check_outputs(inputs, {{"--output", job_.gcode},
-                               {"--report", job_.report},
-                               {"--mesh", job_.mesh},
-                               {"--layers", job_.layers},
-                               {"--html", job_.html}});
+        check_outputs(inputs,
+                      {{"--output", job_.gcode},
+                       {"--report", job_.report},
+                       {"--mesh", job_.mesh},
+                       {"--layers", job_.layers},
+                       {"--html", job_.html}},
+                      job_.svg);
         report_.version = RIBVAULT_VERSION;
         report_.input_path = job_.model.string();
         report_.tracks = job_.tracks;

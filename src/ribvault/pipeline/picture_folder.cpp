@@ -10,6 +10,11 @@ namespace ribvault {
 
 namespace fs = std::filesystem;
 
+bool is_picture_name(const std::string& name) {
+    static const std::regex ours("layer_[0-9]{5,}(_[0-9]+um)?\\.svg");
+    return std::regex_match(name, ours);
+}
+
 PictureFolder::PictureFolder(fs::path folder) : folder_(std::move(folder)) {
     std::error_code error;
     for (fs::path p = folder_.lexically_normal(); !p.empty() && !fs::exists(p, error); p = p.parent_path()) {
@@ -38,11 +43,10 @@ void PictureFolder::commit(std::vector<AtomicFile>& pictures) {
     committed_ = true;
     std::set<fs::path> names;
     for (AtomicFile& picture : pictures) names.insert(picture.target().filename()), picture.commit();
-    const std::regex ours("layer_[0-9]{5,}(_[0-9]+um)?\\.svg");
     std::vector<fs::path> earlier;
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error))
-        if (std::regex_match(entry.path().filename().string(), ours) && !names.contains(entry.path().filename()))
+        if (is_picture_name(entry.path().filename().string()) && !names.contains(entry.path().filename()))
             earlier.push_back(entry.path());
     for (const fs::path& picture : earlier) fs::remove(picture, error);
 }

@@ -9,6 +9,9 @@
 
 namespace ribvault {
 
+/// Is this the name of a picture that a run leaves in its folder?
+bool is_picture_name(const std::string& name);
+
 class PictureFolder {
 public:
     /// Makes the folder. Throws Error (cannot_write) when that cannot be.

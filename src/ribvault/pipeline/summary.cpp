@@ -30,48 +30,40 @@ void append_advice(std::string& text, const RunReport& r) {
     text += "another --seed, thinner layers, or the model turned (docs/printing.md, When something is not proved)\n";
 }
 
-void describe_verdict(std::string& text, const RunReport& r, const Job& job) {
-    const auto layers = static_cast<int>(r.layers.size());
-    const bool gap = r.settings.reach_of_object() > r.settings.support_radius;
-    if (r.verdict.proved)
-        append_formatted(text, "proved    equation (2) holds on all %d layers, decided exactly%s%s\n", layers,
-                         r.verdict.print_proved ? ",\n          for the geometry and for what is extruded" : "",
-                         !r.verdict.print_proved || r.verdict.layers_over_narrow_places.empty()
-                             ? ""
-                             : ", but not over places too narrow to print");
-    if (r.verdict.proved && gap)
+std::string layers_text(std::size_t layers) { return many(static_cast<long long>(layers), "layer"); }
+
+/// What is proved, and what of it is said otherwise than "within rho of the layer below".
+void append_proved(std::string& text, const RunReport& r) {
+    append_formatted(text, "proved    equation (2) holds on all %zu layers, decided exactly%s%s\n", r.layers.size(),
+                     r.verdict.print_proved ? ",\n          for the geometry and for what is extruded" : "",
+                     !r.verdict.print_proved || r.verdict.layers_over_narrow_places.empty()
+                         ? ""
+                         : ", but not over places too narrow to print");
+    if (r.settings.reach_of_object() > r.settings.support_radius)
         append_formatted(
             text,
             "          across the removal gap: outside, all is within rho of a support or within %.5g mm (g + r) of "
             "the object\n",
             to_mm(r.settings.reach_of_object()));
-    if (r.verdict.proved && r.settings.support_gap_layers > 0)
+    if (r.settings.support_gap_layers > 0)
         append_formatted(
             text,
             "          through the layers left empty: outside, the object lies on a support, on itself or on the bed "
             "at most %s farther down\n",
             many(r.settings.support_gap_layers, "layer").c_str());
-    if (r.verdict.proved && r.settings.bed_only)
-        append_formatted(text,
-                         "          on the bed alone: external supports stand on each other, nowhere on the object\n");
-    if (gap && !r.verdict.external_overhangs.empty())
-        append_formatted(
-            text,
-            "warning   on %zu layers there are crevices where the gap leaves no room for a support within rho; "
-            "listed %s\n",
-            r.verdict.external_overhangs.size(), where_listed(job, true).c_str());
-    if (!r.verdict.layers_with_patches_in_gap.empty())
-        append_formatted(
-            text,
-            "warning   on %zu layers the object is too thin to be printed as thin as it is, and its tracks come "
-            "nearer to a support than the gap\n",
-            r.verdict.layers_with_patches_in_gap.size());
+    if (r.settings.bed_only)
+        text += "          on the bed alone: external supports stand on each other, nowhere on the object\n";
+}
+
+/// The first layers of which something is refuted, as geometry and as print.
+void append_refuted(std::string& text, const RunReport& r) {
+    constexpr int most = 5;
     if (!r.verdict.proved)
-        append_formatted(text, "NOT PROVED  %zu of %d layers are not supported:\n", r.verdict.layers_refuted.size(),
-                         layers);
+        append_formatted(text, "NOT PROVED  %zu of %zu layers are not supported:\n", r.verdict.layers_refuted.size(),
+                         r.layers.size());
     int shown = 0;
     for (const LayerReport& layer : r.layers) {
-        if (layer.verdict.supported || shown++ >= 5) continue;
+        if (layer.verdict.supported || shown++ >= most) continue;
         if (const auto& hole = layer.verdict.internal ? layer.verdict.internal : layer.verdict.external)
             append_formatted(text, "  layer %d: %.3g to %.3g mm2, among them (%.6f, %.6f) mm\n", layer.layer,
                              hole->area_lo, hole->area_hi, hole->witness[0], hole->witness[1]);
@@ -80,39 +72,107 @@ void describe_verdict(std::string& text, const RunReport& r, const Job& job) {
         else
             append_formatted(text, "  layer %d: %s\n", layer.layer, layer.verdict.malformed.c_str());
     }
-    if (!r.verdict.print_proved) {
-        const double mm = r.verdict.print_unsupported_mm[1];
-        const std::string what = mm < 0.0005 ? "sides of tracks, no centre line," : fixed(mm, 3) + " mm";
-        append_formatted(text, "%s  of what is extruded, %s on %zu of %d layers hang in air:\n",
-                         r.settings.gaps == Gaps::paper ? "warning " : "NOT PROVED", what.c_str(),
-                         r.verdict.print_layers_refuted.size(), layers);
-        int named = 0;
-        for (const LayerReport& layer : r.layers)
-            if (!layer.print.supported && named++ < 5)
-                append_formatted(text, "  layer %d, near (%.3f, %.3f) mm\n", layer.layer, layer.print.place[0],
-                                 layer.print.place[1]);
-    }
-    if (!r.verdict.proved || (!r.verdict.print_proved && r.settings.gaps != Gaps::paper)) append_advice(text, r);
-    if (!r.verdict.external_overhangs.empty() && !r.settings.outside()) {
-        double area = 0;
-        const ExternalOverhang* worst = &r.verdict.external_overhangs.front();
-        for (const ExternalOverhang& o : r.verdict.external_overhangs) {
-            area += o.area_hi_mm2;
-            if (o.area_hi_mm2 > worst->area_hi_mm2) worst = &o;
-        }
+    if (r.verdict.print_proved) return;
+    const double mm = r.verdict.print_unsupported_mm.hi;
+    const std::string what = mm < 0.0005 ? "sides of tracks, no centre line," : fixed(mm, 3) + " mm";
+    append_formatted(text, "%s  of what is extruded, %s on %zu of %zu layers hang in air:\n",
+                     r.settings.gaps == Gaps::paper ? "warning " : "NOT PROVED", what.c_str(),
+                     r.verdict.print_layers_refuted.size(), r.layers.size());
+    int named = 0;
+    for (const LayerReport& layer : r.layers)
+        if (!layer.print.supported && named++ < most)
+            append_formatted(text, "  layer %d, near (%.3f, %.3f) mm\n", layer.layer, layer.print.place[0],
+                             layer.print.place[1]);
+}
+
+/// What lies outside the layer below and has no support there.
+void append_outside(std::string& text, const RunReport& r, const Job& job) {
+    const std::vector<ExternalOverhang>& overhangs = r.verdict.external_overhangs;
+    if (r.settings.reach_of_object() > r.settings.support_radius && !overhangs.empty())
         append_formatted(text,
-                         "warning   the outside overhangs on %s (at most %s mm2 in all, most on layer %d):\n"
-                         "          no internal support can hold that (--support both does); listed %s\n",
-                         many(static_cast<long long>(r.verdict.external_overhangs.size()), "layer").c_str(),
-                         fixed(area, area < 10 ? 3 : 0).c_str(), worst->layer, where_listed(job, true).c_str());
+                         "warning   on %s there are crevices where the gap leaves no room for a support within rho; "
+                         "listed %s\n",
+                         layers_text(overhangs.size()).c_str(), where_listed(job, true).c_str());
+    if (!r.verdict.layers_with_patches_in_gap.empty())
+        append_formatted(text,
+                         "warning   on %s the object is too thin to be printed as thin as it is, and its tracks come "
+                         "nearer to a support than the gap\n",
+                         layers_text(r.verdict.layers_with_patches_in_gap.size()).c_str());
+    if (overhangs.empty() || r.settings.outside()) return;
+    double area = 0;
+    const ExternalOverhang* worst = &overhangs.front();
+    for (const ExternalOverhang& o : overhangs) {
+        area += o.area_hi_mm2;
+        if (o.area_hi_mm2 > worst->area_hi_mm2) worst = &o;
     }
+    const std::string at_most = area < 0.0005 ? "less than 0.001" : "at most " + fixed(area, area < 10 ? 3 : 0);
+    append_formatted(text,
+                     "warning   the outside overhangs on %s (%s mm2 in all, most on layer %d):\n"
+                     "          no internal support can hold that (--support both does); listed %s\n",
+                     layers_text(overhangs.size()).c_str(), at_most.c_str(), worst->layer,
+                     where_listed(job, true).c_str());
+}
+
+void describe_verdict(std::string& text, const RunReport& r, const Job& job) {
+    if (r.verdict.proved) append_proved(text, r);
+    append_refuted(text, r);
+    if (!r.verdict.proved || (!r.verdict.print_proved && r.settings.gaps != Gaps::paper)) append_advice(text, r);
+    append_outside(text, r, job);
     if (const std::vector<int>& over = r.verdict.layers_over_narrow_places; !over.empty())
         append_formatted(
             text,
             "warning   what is extruded begins in the air on %s (the lowest is layer %d), over places of "
             "the slice\n"
             "          below that are too narrow for a closed perimeter; a finer --nozzle may print them\n",
-            many(static_cast<long long>(over.size()), "layer").c_str(), over.front());
+            layers_text(over.size()).c_str(), over.front());
+}
+
+void append_walls(std::string& text, const RunReport& r) {
+    if (r.totals.slenderness <= 0) return;
+    const LayerReport& l = r.layers[static_cast<std::size_t>(r.totals.slenderest_layer)];
+    append_formatted(text, "walls     most slender on layer %d at (%.1f, %.1f) mm: %.1f mm high, ", l.layer,
+                     l.slender_at[0], l.slender_at[1], l.slender_standing_mm);
+    if (l.slender_to_root_mm > 0)
+        append_formatted(text, "%.1f mm from a root", l.slender_to_root_mm);
+    else
+        text += "a tree that stands free";
+    append_formatted(text, ", ratio %.0f\n", l.slenderness);
+}
+
+/// Layers on which nothing is printed but skirt and brim.
+void append_empty(std::string& text, const RunReport& r) {
+    std::size_t empty = 0, under = 0;  // those, and those of them that have something printed above
+    const LayerReport* lowest = nullptr;
+    for (const LayerReport& layer : r.layers) {
+        if (!layer.empty) {
+            under = empty;
+            continue;
+        }
+        ++empty;
+        if (!lowest) lowest = &layer;
+    }
+    if (!lowest) return;
+    append_formatted(
+        text, "warning   nothing is printed on %zu of %s, without room for a track (the lowest is layer %d)%s\n", empty,
+        layers_text(r.layers.size()).c_str(), lowest->layer, under > 0 ? ": what is above begins in the air" : "");
+}
+
+/// What of the model was left out or mended.
+void append_mended(std::string& text, const RunReport& r, const Job& job) {
+    if (r.totals.thin_places > 0)
+        append_formatted(text,
+                         "warning   %s too narrow for a track and not printed (%.2f mm2 in all); layers listed %s\n",
+                         (many(r.totals.thin_places, "place") + (r.totals.thin_places == 1 ? " is" : " are")).c_str(),
+                         r.totals.thin_area_mm2, where_listed(job, false).c_str());
+    append_empty(text, r);
+    if (r.totals.closings > 0)
+        append_formatted(text, "warning   %s in open contours %s closed; listed %s\n",
+                         many(r.totals.closings, "gap").c_str(), r.totals.closings == 1 ? "was" : "were",
+                         where_listed(job, false).c_str());
+    if (r.totals.layers_with_slivers_removed > 0)
+        append_formatted(
+            text, "warning   slits and slivers narrower than 0.4 um, as between parts that touch, are gone from %s\n",
+            many(r.totals.layers_with_slivers_removed, "layer").c_str());
 }
 
 }  // namespace
@@ -143,43 +203,8 @@ std::string summary(const RunReport& r, const Job& job) {
     append_formatted(text, "print     about %.0f min; %s, %.1f m, %s\n", r.totals.print_seconds / 60,
                      many(r.totals.travels, "travel").c_str(), r.totals.travel_mm / 1000,
                      many(r.totals.retractions, "retraction").c_str());
-    if (r.totals.slenderness > 0) {
-        const LayerReport& l = r.layers[static_cast<std::size_t>(r.totals.slenderest_layer)];
-        append_formatted(text, "walls     most slender on layer %d at (%.1f, %.1f) mm: %.1f mm high, ", l.layer,
-                         l.slender_at[0], l.slender_at[1], l.slender_standing_mm);
-        if (l.slender_to_root_mm > 0)
-            append_formatted(text, "%.1f mm from a root", l.slender_to_root_mm);
-        else
-            text += "a tree that stands free";
-        append_formatted(text, ", ratio %.0f\n", l.slenderness);
-    }
-    if (r.totals.thin_places > 0)
-        append_formatted(text,
-                         "warning   %ld places are too narrow for a track and not printed (%.2f mm2 in all); "
-                         "layers listed %s\n",
-                         r.totals.thin_places, r.totals.thin_area_mm2, where_listed(job, false).c_str());
-    long empty = 0, under = 0;  // layers without a track, and those of them that have one with tracks above
-    for (const LayerReport& layer : r.layers) {
-        if (layer.empty)
-            ++empty;
-        else
-            under = empty;
-    }
-    if (under > 0) {
-        const auto lowest =
-            std::find_if(r.layers.begin(), r.layers.end(), [](const LayerReport& l) { return l.empty; });
-        append_formatted(text,
-                         "warning   nothing is printed on %s, without room for a track (the lowest is layer %d): what "
-                         "is above begins in the air\n",
-                         many(under, "layer").c_str(), lowest->layer);
-    }
-    if (r.totals.closings > 0)
-        append_formatted(text, "warning   %ld gaps in open contours were closed; listed %s\n", r.totals.closings,
-                         where_listed(job, false).c_str());
-    if (r.totals.layers_with_slivers_removed > 0)
-        append_formatted(
-            text, "warning   slits and slivers narrower than 0.4 um, as between parts that touch, are gone from %s\n",
-            many(r.totals.layers_with_slivers_removed, "layer").c_str());
+    append_walls(text, r);
+    append_mended(text, r, job);
     append_formatted(text, "time      %.2f s on %d threads, %.0f MB\n", r.machine.seconds, r.machine.threads,
                      r.machine.peak_memory_mb);
     const std::pair<const char*, const std::optional<std::filesystem::path>&> written[] = {

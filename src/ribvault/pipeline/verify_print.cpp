@@ -103,7 +103,7 @@ public:
 
 private:
     void open_outputs() {
-        check_outputs({job_.gcode}, {{"--report", job_.report}, {"--html", job_.html}});
+        check_outputs({job_.gcode}, {{"--report", job_.report}, {"--html", job_.html}}, job_.svg);
         if (job_.report) json_.emplace(*job_.report);
         if (job_.html) page_.emplace(*job_.html);
         if (job_.svg) folder_.emplace(*job_.svg);
