@@ -353,6 +353,23 @@ TEST_CASE("shells and covers of ribvault's own prints hold; only junction gaps o
         if (f.judged) CHECK(f.unsupported_mm.hi == 0);
 }
 
+TEST_CASE("filament pushed in one place makes no track that holds up the next layer far around", "[verify-print]") {
+    const ScratchFolder folder;
+    VerifyJob job;
+    job.gcode = folder / "blob.gcode";
+    std::ofstream(job.gcode) << "M83\nG0 X0 Y0 Z0.2\nG1 X0.3 E2\nG0 X0 Y1\nG1 X10 E0.33\n"
+                                "G0 X0 Y30 Z0.4\nG1 X20 E0.66\nM84\n";
+    std::string warned;
+    job.warn = [&](const std::string& text) { warned += text; };
+    const PrintReport r = verify_print(job);
+    CHECK_FALSE(r.supported);
+    CHECK(r.unsupported_mm.lo == Approx(20));
+    CHECK_THAT(warned, Contains("1 track (the first is on line 3)") && Contains("1.20 mm"));
+    // What is pushed must itself be held up.
+    std::ofstream(job.gcode) << "M83\nG0 X0 Z0.2\nG1 X10 E0.33\nG0 X5 Z0.4\nG1 X5.3 E2\nM84\n";
+    CHECK_FALSE(verify_print(job).supported);
+}
+
 TEST_CASE("a cut file is judged up to the cut, with a warning", "[verify-print]") {
     const ScratchFolder folder;
     const std::string whole = contents(job_on("cantilever.gcode").gcode);

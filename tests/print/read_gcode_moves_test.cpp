@@ -116,6 +116,53 @@ TEST_CASE("short stretches share one flow", "[gcode]") {
     for (const GcodeTrack& t : print.layers[0].tracks) CHECK(width(t) == Approx(0.4).margin(0.003));
 }
 
+TEST_CASE("the end of a path that is too short for a flow of its own shares the one before", "[gcode]") {
+    // 0.01 um further on, with the least E that can be written
+    const GcodePrint print = read("M83\nG1 Z.2\nG1 X10 E.33260\nG1 X10.00001 E.00001\nG1 X0 Y5\nG1 X10 E.33260\n");
+    REQUIRE(print.layers[0].tracks.size() == 3);
+    for (const GcodeTrack& t : print.layers[0].tracks) CHECK(t.width == 400000000);
+}
+
+TEST_CASE("a track with more filament than a nozzle lays is no wider than its disc, and holds up as three nozzles do",
+          "[gcode]") {
+    const double filament = std::numbers::pi / 4 * 1.75 * 1.75;
+    const GcodePrint print = read("M83\nG1 Z.2\nG1 X10 E.3326\nG1 X20\nG1 X20.3 E2\nG1 X30\nG1 X40 E2\n");
+    const GcodeTrack &usual = track(print, 0, 0), &blob = track(print, 0, 1), &purge = track(print, 0, 2);
+    CHECK(usual.width == usual.width_below);
+    CHECK(width(blob) == Approx(std::sqrt(4 / std::numbers::pi * 2 * filament / 0.2)).margin(0.001));
+    CHECK(blob.width_below == 1200000000);
+    CHECK(width(purge) == Approx(2 * filament / 0.2 / 10).margin(0.001));
+    CHECK(purge.width_below == 1200000000);
+    CHECK(print.too_wide.tracks == 2);
+    CHECK(print.too_wide.line == 5);
+    CHECK(print.too_wide.widest == 1200000000);
+    GcodeOptions wide;
+    wide.nozzle = 1.2;
+    const std::string line = "M83\nG1 Z.4\nG1 X10 E4\n";
+    CHECK(read(line).too_wide.tracks == 1);
+    CHECK(read(line, wide).too_wide.tracks == 0);
+    CHECK(read("; nozzle_diameter = 1.2\n" + line).too_wide.tracks == 0);
+}
+
+TEST_CASE("a stub with the filament of a dot is as wide as the dot", "[gcode]") {
+    const double dot = std::numbers::pi / 4 * 0.4 * 0.4 * 0.2 / (std::numbers::pi / 4 * 1.75 * 1.75);
+    for (const char* stub : {".09", ".01"}) {
+        const GcodePrint print = read("M83\nG1 Z.2\nG1 X" + std::string(stub) + " E" + std::to_string(dot) + "\n");
+        CHECK(track(print, 0, 0).width == 400000000);
+        CHECK(track(print, 0, 0).width_below == 400000000);
+        CHECK(print.too_wide.tracks == 0);
+    }
+}
+
+TEST_CASE("a stub with filament by its length holds up as a dot does, on another track as it is", "[gcode]") {
+    const std::string stub = "G1 X.02 E.00067\n", other = "G1 Y-1\nG1 X0 Y1 E.0665\n";
+    const GcodePrint alone = read("M83\nG1 Z.2\n" + stub), joined = read("M83\nG1 Z.2\n" + stub + "G1 X0\n" + other);
+    CHECK(width(track(alone, 0, 0)) == Approx(0.4).margin(0.01));
+    CHECK(width(track(alone, 0, 0)) > 3 * 1e-9 * static_cast<double>(track(alone, 0, 0).width_below));
+    CHECK(width(track(joined, 0, 0)) == Approx(0.4).margin(0.01));
+    CHECK(track(joined, 0, 0).width_below == track(joined, 0, 0).width);
+}
+
 TEST_CASE("how words are written does not matter", "[gcode]") {
     check_track("g1x1y2z.2\nN12 G01 X 3 (aside) Y4 E1*71\n", "1", "2", "3", "4");
     check_track("%\nG1 X1 Y2 Z.2 ; go\r\nG1 X3 Y4 E1 ; X9 Y9\r\n", "1", "2", "3", "4");

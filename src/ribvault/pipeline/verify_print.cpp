@@ -112,6 +112,7 @@ private:
     void read() {
         GcodeOptions options;
         if (job_.filament_diameter) options.filament_diameter = job_.filament_diameter->get_d();
+        if (job_.nozzle) options.nozzle = job_.nozzle->get_d();
         if (job_.layer_height) options.layer_height = job_.layer_height->get_d();
         options.infill_layers = job_.infill_layers;
         print_ = read_gcode(job_.gcode, options);
@@ -153,6 +154,11 @@ private:
                       " apart, and the file does not say how high it is; if it is so many layers thick, "
                       "--infill-layers " +
                       std::to_string(apart) + " says so");
+        if (const auto& [tracks, line, widest] = print_.too_wide; tracks > 0)
+            job_.warn("on " + many(static_cast<long long>(tracks), "track") + " (the first is on line " +
+                      std::to_string(line) + ") more is pushed than a nozzle lays; each counts as " +
+                      fixed(1e-9 * static_cast<double>(widest), 2) +
+                      " mm wide, three nozzles, for what lies on it: --nozzle and --filament-diameter say others");
         if (print_.widths_computed > 0 && report_.filament_source == "default")
             job_.warn(
                 "widths are computed from E with filament of 1.75 mm, as the file names none; --filament-diameter says "

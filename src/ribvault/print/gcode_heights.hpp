@@ -13,6 +13,7 @@ namespace ribvault {
 struct LayerHints {
     std::optional<std::int64_t> layer_height, first_layer_height;  ///< 1e-9 mm
     std::optional<double> nozzle;                                  ///< diameter of the widest, mm
+    std::int64_t widest_track = 0;                                 ///< 1e-9 mm; no nozzle lays a wider one
     std::vector<double> filaments;                                 ///< diameters, mm, at least one; one a tool
     bool volumetric = false;                                       ///< E is mm³ in all of the file
     int infill_layers = 1;                                         ///< how thick infill of unsaid height is, in layers

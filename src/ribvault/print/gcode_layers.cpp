@@ -12,25 +12,89 @@ namespace {
 
 constexpr double pooled_mm = 0.25;  // shorter stretches share one flow
 constexpr std::int64_t widest = 100 * pm_per_mm;
+constexpr double on_track = 0.01;                              // mm from its centre line
 constexpr Int128 most_pressed = 3 * Int128{decimal_one} / 10;  // 0.3 mm: more is no overlap, but air
 
 GcodePoint flat(const std::array<Decimal, 3>& p) { return {p[0], p[1]}; }
+
+/// 1e-9 mm.
+std::int64_t in_whole_um(double mm) {
+    return std::llround(std::clamp(std::round(1000 * mm), 1.0, static_cast<double>(widest) / 1e6)) * 1000000;
+}
+
+struct FlowWidths {
+    double above, below;    ///< mm: what must be held up; what holds up
+    bool too_wide = false;  ///< `below` leaves out some of what is pushed
+    bool unsure = false;    ///< a dot by its length; a stub that begins on another track is as wide as above
+};
+
+/// Of a track that is pushed over `area`, mm², along `length`, mm. A disc of the same area has all that is pushed in
+/// it, whatever the length.
+FlowWidths widths_of(double area, double length, double widest_track) {
+    if (length <= 0) return {0, 0};
+    const double disc = std::sqrt(4 / std::numbers::pi * area), rectangle = area / length,
+                 least = std::min(rectangle, disc);
+    if (rectangle > widest_track) return {least, std::min(least, widest_track), least > widest_track};
+    const bool dot = 4 * length < disc;
+    return {rectangle, dot ? least : rectangle, false, dot};
+}
+
+double distance(const GcodePoint& p, const GcodePoint& a, const GcodePoint& b) {
+    const double px = to_double(p.x - a.x), py = to_double(p.y - a.y), x = to_double(b.x - a.x),
+                 y = to_double(b.y - a.y), square = x * x + y * y;
+    const double share = square > 0 ? std::clamp((px * x + py * y) / square, 0.0, 1.0) : 0;
+    return std::hypot(px - share * x, py - share * y);
+}
+
+/// Of these tracks, those that begin or end on the centre line of another have the round end in that one's material:
+/// what is pushed for them is what they add to it.
+void widen_stubs_on_tracks(GcodeLayer& layer, const std::vector<std::size_t>& stubs) {
+    std::vector<char> is_stub(layer.tracks.size(), 0);
+    for (const std::size_t k : stubs) is_stub[k] = 1;
+    for (const std::size_t k : stubs) {
+        GcodeTrack& stub = layer.tracks[k];
+        for (std::size_t j = 0; j < layer.tracks.size() && stub.width_below < stub.width; ++j) {
+            const GcodeTrack& t = layer.tracks[j];
+            const GcodePoint &a = layer.points[t.a], &b = layer.points[t.b];
+            if (!is_stub[j] &&
+                std::min(distance(layer.points[stub.a], a, b), distance(layer.points[stub.b], a, b)) <= on_track)
+                stub.width_below = stub.width;
+        }
+    }
+}
 
 }  // namespace
 
 /// The width, or minus the number (from 1) of the flow that it will be computed from.
 std::int64_t LayerCollector::width_of(const Extrusion& e) {
     if (e.width) {
-        flow_open_ = false;
+        close_flow();
         return *e.width;
     }
     const bool same = flow_open_ && flows_.back().feature == e.feature && flows_.back().tool == e.tool &&
                       flows_.back().volumetric == e.volumetric && flows_.back().length < pooled_mm;
-    if (!same) flows_.push_back({0, 0, {}, e.volumetric, e.tool, e.feature});
-    flow_open_ = true;
+    if (!same) {
+        close_flow();
+        flows_.push_back({0, 0, {}, e.volumetric, e.tool, e.feature, paths_});
+        flow_open_ = true;
+    }
     flows_.back().length += e.length_mm;
     flows_.back().pushed += e.pushed;
     return -static_cast<std::int64_t>(flows_.size());
+}
+
+/// What is left of a path, too short for a flow of its own, shares the one before.
+void LayerCollector::close_flow() {
+    if (!std::exchange(flow_open_, false) || flows_.size() < 2 || flows_.back().length >= pooled_mm) return;
+    Flow& last = flows_.back();
+    auto before = std::next(flows_.rbegin());
+    while (before->with_previous) ++before;
+    if (before->path != last.path || before->feature != last.feature || before->tool != last.tool ||
+        before->volumetric != last.volumetric)
+        return;
+    before->length += last.length;
+    before->pushed += last.pushed;
+    last.with_previous = true;
 }
 
 GcodeLayer& LayerCollector::group(const Extrusion& e) {
@@ -55,7 +119,8 @@ void LayerCollector::file(GcodeLayer& layer, const Extrusion& e, std::int64_t wi
         layer.points.push_back(to);
         ++track.b;
     }
-    track.line = e.line, track.feature = e.feature, track.chord = e.chord, track.width = width;
+    track.line = e.line, track.feature = e.feature, track.chord = e.chord;
+    track.width = track.width_below = width;
     track.continues = continues && !layer.tracks.empty() && layer.tracks.back().b == track.a;
     layer.tracks.push_back(track);
 }
@@ -85,7 +150,8 @@ void LayerCollector::file_level_end() {
 
 void LayerCollector::end_path() {
     if (!in_path_) return;
-    in_path_ = flow_open_ = false;
+    close_flow();
+    in_path_ = false;
     ++paths_;
     if (!climbed_) return;
     file_level_end();
@@ -153,21 +219,28 @@ void LayerCollector::file_climbs(const LayerHints& hints) {
 }
 
 void LayerCollector::resolve_widths(GcodePrint& print, GcodeLayer& layer, const LayerHints& hints) const {
+    std::vector<std::size_t> unsure;
     for (GcodeTrack& t : layer.tracks) {
         if (t.width > 0) {
             ++print.widths_written;
             continue;
         }
         ++print.widths_computed;
-        const Flow& flow = flows_[static_cast<std::size_t>(-t.width - 1)];
-        const double height = static_cast<double>(flow.height.value_or(layer.height)) * 1e-9;
+        auto flow = flows_.begin() + static_cast<std::ptrdiff_t>(-t.width - 1);
+        const double height = static_cast<double>(flow->height.value_or(layer.height)) * 1e-9;
+        while (flow->with_previous) --flow;
         const double diameter =
-            hints.filaments[std::min(static_cast<std::size_t>(flow.tool), hints.filaments.size() - 1)];
-        const double area = flow.volumetric || hints.volumetric ? 1 : std::numbers::pi / 4 * diameter * diameter;
-        const double um = flow.length > 0 ? 1000 * flow.pushed * area / (flow.length * height) : 1;
-        const double clamped = std::clamp(std::round(um), 1.0, static_cast<double>(widest) / 1000000);
-        t.width = static_cast<std::int64_t>(clamped) * 1000000;
+            hints.filaments[std::min(static_cast<std::size_t>(flow->tool), hints.filaments.size() - 1)];
+        const double filament = flow->volumetric || hints.volumetric ? 1 : std::numbers::pi / 4 * diameter * diameter;
+        const FlowWidths widths =
+            widths_of(flow->pushed * filament / height, flow->length, static_cast<double>(hints.widest_track) * 1e-9);
+        t.width = in_whole_um(widths.above), t.width_below = in_whole_um(widths.below);
+        if (widths.unsure) unsure.push_back(static_cast<std::size_t>(&t - layer.tracks.data()));
+        if (!widths.too_wide) continue;
+        print.too_wide.widest = hints.widest_track;
+        print.too_wide.line = print.too_wide.tracks++ == 0 ? t.line : std::min(print.too_wide.line, t.line);
     }
+    widen_stubs_on_tracks(layer, unsure);
 }
 
 void LayerCollector::finish(GcodePrint& print, const LayerHints& hints) {

@@ -47,8 +47,14 @@ public:
     /// "Initial Layer Z Overlap"): where the file says no heights, its top is one layer below the second's, when that
     /// moves it by no more than 0.3 mm. Heights: see resolve_heights. Widths that the file does not say: pushed volume
     /// over length times height, the rectangle of the same cross-section, to 1 µm: narrower than the round-edged track
-    /// that is printed by 0.21 times the height. Volumes of stretches below 0.25 mm are pooled, as E is rounded. Where
-    /// a climb ends less than a layer over the last turn, its height is the mean of both.
+    /// that is printed by 0.21 times the height. Volumes of stretches below 0.25 mm are pooled, as E is rounded, with
+    /// what comes after or, at the end of a path, before. Where a climb ends less than a layer over the last turn, its
+    /// height is the mean of both.
+    ///
+    /// A path shorter than a quarter of the disc of its volume, which does not begin or end on another track, is a dot
+    /// drawn out a little: what lies on it finds that disc, which is less than the rectangle. It must itself be held up
+    /// as wide as the rectangle where a nozzle lays so wide a track (hints.widest_track). What is wider than this is no
+    /// wider than the disc, and holds up what one of the widest does.
     void finish(GcodePrint& print, const LayerHints& hints);
 
 private:
@@ -58,6 +64,8 @@ private:
         bool volumetric = false;
         int tool = 0;
         std::uint16_t feature = 0;
+        std::uint64_t path = 0;
+        bool with_previous = false;  ///< the end of a path, pooled with the flow before
     };
     struct Climb {
         Extrusion extrusion;
@@ -67,6 +75,7 @@ private:
     };
 
     std::int64_t width_of(const Extrusion& e);
+    void close_flow();
     void file(GcodeLayer& layer, const Extrusion& e, std::int64_t width, bool continues);
     GcodeLayer& group(const Extrusion& e);
     void file_level_end();

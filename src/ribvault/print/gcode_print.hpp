@@ -37,6 +37,7 @@ struct GcodeTrack {
     bool chord = false;           ///< of an arc: the true centre line lies within arc_bound_mm of this one
     bool continues = false;       ///< starts where the track before it in this layer ended, without a travel between
     std::int64_t width = 0;       ///< 1e-9 mm
+    std::int64_t width_below = 0;  ///< as it counts for what lies on it: less where E does not tell for sure
 };
 
 /// All tracks with the same top and the same height.
@@ -74,6 +75,12 @@ struct GcodePrint {
     };
     SparseInfill sparse_infill;                             ///< farther apart than it is thick
     std::uint64_t widths_written = 0, widths_computed = 0;  ///< tracks whose width stands in a comment; comes from E
+    struct TooWide {
+        std::uint64_t tracks = 0;  ///< whose E makes more than a nozzle lays
+        std::uint32_t line = 0;    ///< of the first of them in the file
+        std::int64_t widest = 0;   ///< 1e-9 mm: as wide they count for what lies on them
+    };
+    TooWide too_wide;
 };
 
 }  // namespace ribvault

@@ -18,13 +18,14 @@ Millimetres to_mm(Decimal d) {
     return to_rational(d);
 }
 
-void append(const GcodeLayer& layer, const std::vector<char>& outline, std::int64_t widen_chords, PrintedLayer& to) {
+void append(const GcodeLayer& layer, const std::vector<char>& outline, std::int64_t GcodeTrack::*width,
+            std::int64_t widen_chords, PrintedLayer& to) {
     std::vector<PrintedPoint> points;
     points.reserve(layer.points.size());
     for (const GcodePoint& p : layer.points) points.push_back({to_mm(p.x), to_mm(p.y)});
     to.tracks.reserve(to.tracks.size() + layer.tracks.size());
     for (const GcodeTrack& t : layer.tracks) {
-        const std::int64_t wide = std::max<std::int64_t>(1, t.width + (t.chord ? widen_chords : 0));
+        const std::int64_t wide = std::max<std::int64_t>(1, t.*width + (t.chord ? widen_chords : 0));
         to.tracks.push_back({points[t.a], points[t.b], Millimetres::of_picometres(wide), t.feature, t.line,
                              !outline.empty() && outline[static_cast<std::size_t>(&t - layer.tracks.data())] != 0});
     }
@@ -53,20 +54,21 @@ void visit_outer_walls(const std::vector<GcodeFeature>& features, const GcodeLay
 
 PrintedLayer layer_above(const GcodePrint& print, std::size_t entry) {
     PrintedLayer above;
-    append(print.layers[entry], {}, 2 * arc_bound, above);
+    append(print.layers[entry], {}, &GcodeTrack::width, 2 * arc_bound, above);
     return above;
 }
 
 PrintedLayer layer_below(const GcodePrint& print, std::size_t entry) {
     PrintedLayer material;
-    append(print.layers[entry], {}, -2 * arc_bound, material);
+    append(print.layers[entry], {}, &GcodeTrack::width_below, -2 * arc_bound, material);
     return material;
 }
 
 PrintedLayer material_below(const GcodePrint& print, std::size_t entry) {
     PrintedLayer material;
     for (const std::size_t k : print.layers[entry].below)
-        append(print.layers[k], outline_tracks(print.features, print.layers[k]), -2 * arc_bound, material);
+        append(print.layers[k], outline_tracks(print.features, print.layers[k]), &GcodeTrack::width_below,
+               -2 * arc_bound, material);
     return material;
 }
 

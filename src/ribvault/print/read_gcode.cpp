@@ -18,6 +18,8 @@ namespace ribvault {
 namespace {
 
 constexpr double usual_filament = 1.75;             // mm
+constexpr double usual_nozzle = 0.4;                // mm
+constexpr double widest_track = 3;                  // nozzles; the flat around the hole is hardly wider
 constexpr std::int64_t farthest = 10000;            // mm from the origin; no printer's bed reaches so far
 constexpr std::size_t block_size = 1 << 18;         // bytes
 constexpr std::size_t longest_line = 1 << 20;       // bytes; thumbnails have lines of 80, settings of some thousand
@@ -65,10 +67,14 @@ public:
         print_.program = comments_.program;
         print_.nozzles = comments_.nozzles;
         print_.filaments = comments_.filaments;
-        LayerHints hints{comments_.layer_height, comments_.first_layer_height, {},
-                         comments_.filaments,    comments_.volumetric,         options_.infill_layers};
+        LayerHints hints;
+        hints.layer_height = comments_.layer_height, hints.first_layer_height = comments_.first_layer_height;
+        hints.filaments = comments_.filaments, hints.volumetric = comments_.volumetric;
+        hints.infill_layers = options_.infill_layers;
         if (!comments_.nozzles.empty())
             hints.nozzle = *std::max_element(comments_.nozzles.begin(), comments_.nozzles.end());
+        hints.widest_track =
+            std::llround(widest_track * pm_per_mm * options_.nozzle.value_or(hints.nozzle.value_or(usual_nozzle)));
         if (options_.filament_diameter) hints.filaments = {*options_.filament_diameter};
         if (hints.filaments.empty()) hints.filaments = {usual_filament};
         if (!hints.layer_height && options_.layer_height)

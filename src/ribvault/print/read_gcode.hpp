@@ -11,6 +11,7 @@ namespace ribvault {
 
 struct GcodeOptions {
     std::optional<double> filament_diameter;    ///< mm; instead of what the file says (1.75 where neither does)
+    std::optional<double> nozzle;               ///< mm; instead of what the file says (0.4 where neither does)
     std::optional<double> layer_height;         ///< mm; where the file does not say
     int infill_layers = 1;                      ///< how thick infill is whose height the file does not say, in layers
 };
