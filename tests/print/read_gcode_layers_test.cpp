@@ -1,3 +1,5 @@
+#include <array>
+#include <map>
 #include <numbers>
 
 #include "print/gcode_text.hpp"
@@ -70,15 +72,49 @@ TEST_CASE("tops that differ by rounding are one layer", "[gcode]") {
     CHECK(said.layers[2].below == std::vector<std::size_t>{0, 1});
 }
 
-TEST_CASE("layers much thinner than most for want of heights in the file are counted", "[gcode]") {
-    std::string object = "M83\n", support;
-    for (int k = 1; k <= 8; ++k) {
-        object += "G1 Z" + std::to_string(0.2 * k) + "\nG1 X10 E1\nG1 X0\n";
-        if (k > 4) support += "G1 Z" + std::to_string(0.2 * k + 0.03) + "\nG1 X30\nG1 X40 E1\n";
-    }
-    CHECK(read(object).thin_layers == 0);
-    CHECK(read(object + support).thin_layers == 3);
-    CHECK(read(";TYPE:a\n;HEIGHT:0.2\n" + object + support).thin_layers == 0);
+TEST_CASE("layers of things that have layers of their own are counted where the file says no heights", "[gcode]") {
+    // Rings of 20 mm, and lines across them: by height, as a slicer prints all objects together.
+    std::multimap<int, std::string> levels;  // by um
+    const auto ring = [&](int um, int x, int size) {
+        const std::string left = std::to_string(x), right = std::to_string(x + size), back = std::to_string(size);
+        levels.emplace(um, "G1 X" + left + " Y0\nG1 X" + right + " E1\nG1 Y" + back + " E1\nG1 X" + left +
+                               " E1\nG1 Y0 E1\n" + (um / 100 % 2 != 0 ? "G1 X" + right + " Y" + back + " E1\n" : ""));
+    };
+    const auto tower = [&](int x, int first, int height, int count, int size = 20) {
+        for (int k = 0; k < count; ++k) ring(first + k * height, x, size);
+    };
+    const auto counted = [&](const std::string& before = "M83\n") {
+        std::string text = before;
+        for (const auto& [um, tracks] : levels) text += "G1 Z" + std::to_string(um / 1000.0) + "\n" + tracks;
+        levels.clear();
+        return read(text).interleaved_layers;
+    };
+    tower(0, 200, 200, 12), tower(50, 300, 300, 8);
+    CHECK(counted() > 2);
+    tower(0, 200, 200, 12), tower(50, 300, 300, 8);
+    CHECK(counted("M83\n;TYPE:a\n;HEIGHT:0.2\n") == 0);
+    tower(0, 200, 200, 12), tower(50, 250, 250, 9);
+    CHECK(counted() > 2);
+    tower(0, 200, 200, 12), tower(50, 300, 200, 12);  // all distances are 0.1 mm
+    CHECK(counted() > 2);
+    tower(0, 200, 200, 8), tower(50, 1030, 200, 4);  // floats at first
+    CHECK(counted() > 2);
+    tower(0, 200, 200, 12), tower(-10, 300, 300, 8, 40);  // round about the other, as supports are
+    CHECK(counted() > 2);
+
+    tower(0, 200, 200, 12), tower(50, 200, 200, 12);
+    CHECK(counted() == 0);
+    tower(0, 350, 200, 12);
+    CHECK(counted() == 0);
+    for (int um = 0, k = 0; k < 40; ++k) ring(um += std::array{70, 300, 100, 150, 50, 200}[k % 6], 0, 20);
+    CHECK(counted() == 0);
+    for (int k = 0; k < 12; ++k) ring(200 + 200 * k, 3 * k, 20);  // leans
+    CHECK(counted() == 0);
+    // Shelves over supports that end a layer under them.
+    tower(0, 200, 200, 30, 8);
+    for (int shelf = 1; shelf <= 4; ++shelf)
+        tower(20, 1400 * shelf, 200, 1, 40), tower(20, 1400 * shelf - 400, 200, 1, 40);
+    CHECK(counted() <= 2);
 }
 
 TEST_CASE("what floats farther up than a layer can be high has air below it, whatever height the file says",

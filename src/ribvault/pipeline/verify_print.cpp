@@ -140,11 +140,11 @@ private:
                 job_.warn("the lowest layer begins " + std::to_string(top - height) +
                           " mm over z = 0; it counts as lying on the bed all the same");
         }
-        if (print_.thin_layers > 2)
+        if (print_.interleaved_layers > 2)
             job_.warn(
-                "the file does not say how high layers are, and " + std::to_string(print_.thin_layers) +
-                " come out at most half as high as those beside them, as where objects or supports have layers of "
-                "their own; then it cannot be judged rightly: export it with ;HEIGHT: comments");
+                "the file does not say how high layers are, and " + std::to_string(print_.interleaved_layers) +
+                " lie beside the next lower one and over others, as where objects or supports have layers of their "
+                "own; then it cannot be judged rightly: export it with ;HEIGHT: comments");
         if (print_.layers_over_air > 0)
             job_.warn(
                 std::to_string(print_.layers_over_air) +

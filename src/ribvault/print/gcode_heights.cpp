@@ -7,10 +7,13 @@
 #include <numeric>
 #include <utility>
 
+#include "ribvault/print/interleaved_layers.hpp"
+
 namespace ribvault {
 namespace {
 
-constexpr std::int64_t thick_first = pm_per_mm / 2;  // a layer on the bed may be as high
+constexpr std::int64_t thick_first =
+    pm_per_mm / 2;  // a layer on the bed may be as high, and others that nothing is known of
 constexpr std::int64_t plain_height = pm_per_mm / 5;
 
 /// Per feature: whether its height is its layer's, whatever the file says.
@@ -118,8 +121,8 @@ void resolve_heights(LayerGroups& groups, GcodePrint& print, const LayerHints& h
     LayerGroups resolved;
     const std::vector<char> of_layer = with_layers_height(print.features);
     std::vector<InfillLayers> infill(print.features.size());
-    std::vector<std::int64_t> distances;  // heights that are the distance to the next lower layer
-    std::int64_t lower = 0;               // top of the next lower z
+    std::vector<LevelTracks> levels;
+    std::int64_t lower = 0;  // top of the next lower z
     int number = 0;
     for (auto at = groups.begin(); at != groups.end(); ++number) {
         const Int128 z = at->first.z;
@@ -138,7 +141,8 @@ void resolve_heights(LayerGroups& groups, GcodePrint& print, const LayerHints& h
         if (usual == 0 && resolved.empty())
             usual = hints.first_layer_height.value_or(
                 top <= std::max(thick_first, 2 * hints.layer_height.value_or(top)) ? top : *hints.layer_height);
-        if (usual == 0) distances.push_back(usual = top - lower);
+        levels.push_back({z, usual == 0, {}});
+        if (usual == 0) usual = top - lower;
         // What reaches past lower tops, as combined infill does, has no air in it.
         const auto is_air = [&](std::int64_t height) {
             return !resolved.empty() && height > tallest && height <= top - lower + in_pm(z_rounding);
@@ -173,11 +177,12 @@ void resolve_heights(LayerGroups& groups, GcodePrint& print, const LayerHints& h
         lower = top;
     }
     groups = std::move(resolved);
-    for (std::size_t k = 0; k < distances.size(); ++k) {
-        const std::int64_t before = k > 0 ? distances[k - 1] : 0,
-                           after = k + 1 < distances.size() ? distances[k + 1] : 0;
-        print.thin_layers += 2 * distances[k] <= std::min(before, after);
+    auto level = levels.begin();
+    for (const auto& [key, layer] : groups) {
+        while (level->z != key.z) ++level;
+        level->entries.push_back(&layer);
     }
+    print.interleaved_layers = interleaved_layers(levels, std::max(tallest, thick_first) * decimal_per_pm);
     for (std::size_t f = 0; f < infill.size(); ++f)
         if (const int apart = infill[f].apart(); apart > hints.infill_layers)
             print.sparse_infill = {print.features[f].name, apart};

@@ -65,9 +65,8 @@ struct GcodePrint {
     double set_aside_mm = 0;  ///< extruded by start, end and other custom G-code: neither judged nor material
     std::vector<double> nozzles, filaments;  ///< diameters in mm as the file says, one a tool; empty: it does not
     double filament_diameter = 0;         ///< mm; what widths were computed with where the file gives none (tool 0)
-    /// Of the layers whose height is the distance to the next lower one: those at most half as high as both beside
-    /// them.
-    int thin_layers = 0;
+    /// Of the layers whose height is the distance to the next lower one: those that lie beside that one, over others.
+    int interleaved_layers = 0;
     int layers_over_air = 0;  ///< of those above that: nothing is so far below them that they cannot be as high
     struct SparseInfill {
         std::string feature;  ///< whose height the file does not say
