@@ -128,6 +128,19 @@ TEST_CASE("rho as given, by overlap, by nozzle", "[verify-print]") {
     CHECK(verify_print(job).support_radius_exact == "3/10");
 }
 
+TEST_CASE("the file's nozzle is taken as it is written, to the last decimal", "[verify-print]") {
+    const ScratchFolder folder;
+    std::string text = contents(job_on("wall.gcode").gcode);
+    const std::string nozzle = "nozzle_diameter = 0.4";
+    text.replace(text.find(nozzle), nozzle.size(), "nozzle_diameter = 0.6,0.399999999999999998");
+    VerifyJob job;
+    job.gcode = folder / "wall.gcode";
+    std::ofstream(job.gcode) << text;
+    const PrintReport r = verify_print(job);
+    CHECK(r.support_radius_exact == "199999999999999999/1000000000000000000");
+    CHECK_FALSE(r.supported);  // each layer is shifted by 0.2 mm
+}
+
 TEST_CASE("exactly rho is held up", "[verify-print]") {
     CHECK(verify_print(job_on("wall.gcode")).supported);
     VerifyJob job = job_on("wall.gcode");

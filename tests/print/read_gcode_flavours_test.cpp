@@ -22,7 +22,7 @@ TEST_CASE("PrusaSlicer", "[gcode][flavour]") {
     CHECK(length(print, "Internal infill") == Approx(20));
     CHECK(kind(print, "Skirt/Brim") == FeatureKind::skirt);
     CHECK(kind(print, "Bridge infill") == FeatureKind::bridge);
-    CHECK(print.nozzles == std::vector<double>{0.4, 0.6});
+    CHECK(print.nozzles == std::vector{*parse_decimal("0.4"), *parse_decimal("0.6")});
     CHECK(print.filaments == std::vector<double>{1.75, 2.85});
     CHECK(track(print, 0, 1).width == 449999000);
     CHECK(track(print, 0, 1).line == 25);
@@ -35,7 +35,7 @@ TEST_CASE("OrcaSlicer", "[gcode][flavour]") {
     CHECK(length(print, "Outer wall") == Approx(10 + 15 * 3.14159265).epsilon(1e-4));
     CHECK(kind(print, "Sparse infill") == FeatureKind::infill);
     CHECK(kind(print, "Internal Bridge") == FeatureKind::bridge);
-    CHECK(print.nozzles == std::vector<double>{0.4});
+    CHECK(print.nozzles == std::vector{*parse_decimal("0.4")});
 }
 
 TEST_CASE("Bambu Studio", "[gcode][flavour]") {

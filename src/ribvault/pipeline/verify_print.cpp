@@ -173,7 +173,7 @@ private:
             nozzle = *job_.nozzle;
             report_.nozzle_source = "option";
         } else if (!print_.nozzles.empty()) {
-            nozzle = to_rational(rounded_decimal(*std::min_element(print_.nozzles.begin(), print_.nozzles.end())));
+            nozzle = to_rational(*std::min_element(print_.nozzles.begin(), print_.nozzles.end()));
             report_.nozzle_source = "file";
         }
         const Rational overlap = job_.overlap.value_or(Rational(1, 2));
@@ -238,8 +238,15 @@ private:
         const std::size_t limit = thread_limit(job_.threads);
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
         report_.threads = static_cast<int>(limit);
-        const LayerRules rules{radius_,       job_.longest_bridge,     report_.min_area_mm2, judged_,       job_.inside,
-                               object_reach_, job_.support_gap_layers, job_.bed_only,        job_.distances};
+        const LayerRules rules{.support_radius = radius_,
+                               .longest_bridge = job_.longest_bridge,
+                               .min_area = job_.min_area.get_d(),
+                               .judged = judged_,
+                               .inside = job_.inside,
+                               .object_reach = object_reach_,
+                               .gap_layers = job_.support_gap_layers,
+                               .supports_alone = job_.bed_only,
+                               .distances = job_.distances};
         const int total = static_cast<int>(print_.layers.size());
         std::vector<JudgedLayer> judged(print_.layers.size());
         std::mutex reporting;

@@ -40,11 +40,11 @@ std::optional<std::int64_t> height_of(std::string_view text) {
 }
 
 /// "0.4,0.6" or "1.75|1.75": what can be read of it.
-std::vector<double> diameters(std::string_view text) {
-    std::vector<double> all;
+std::vector<Decimal> diameters(std::string_view text) {
+    std::vector<Decimal> all;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find_first_of(",|;"), text.size());
-        if (const auto d = parse_decimal(text.substr(0, end)); d && d->value > 0) all.push_back(to_double(*d));
+        if (const auto d = parse_decimal(text.substr(0, end)); d && d->value > 0) all.push_back(*d);
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     return all;
@@ -167,7 +167,10 @@ void GcodeComments::note_program(std::string_view comment) {
 
 void GcodeComments::read_setting(std::string_view key, std::string_view value) {
     if (key == "filament_diameter" || key == "filamentDiameters") {
-        if (auto found = diameters(value); !found.empty()) filaments = std::move(found);
+        if (const std::vector<Decimal> found = diameters(value); !found.empty()) {
+            filaments.clear();
+            for (const Decimal d : found) filaments.push_back(to_double(d));
+        }
     } else if (key == "nozzle_diameter" || key == "extruderDiameter" || key == "NOZZLE_DIAMETER" ||
                key == "EXTRUDER_TRAIN.0.NOZZLE.DIAMETER") {
         if (auto found = diameters(value); !found.empty()) nozzles = std::move(found);

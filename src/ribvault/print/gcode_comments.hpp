@@ -34,7 +34,8 @@ public:
     std::optional<std::int64_t> height;       ///< 1e-9 mm, whole µm
     GcodeFlavour flavour = GcodeFlavour::unknown;
     std::string program;
-    std::vector<double> nozzles, filaments;
+    std::vector<Decimal> nozzles;
+    std::vector<double> filaments;
     std::optional<std::int64_t> layer_height, first_layer_height;  ///< 1e-9 mm
     bool volumetric = false;
 

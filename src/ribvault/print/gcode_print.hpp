@@ -63,7 +63,8 @@ struct GcodePrint {
     std::int64_t lines = 0;
     std::uint64_t bytes = 0;
     double set_aside_mm = 0;  ///< extruded by start, end and other custom G-code: neither judged nor material
-    std::vector<double> nozzles, filaments;  ///< diameters in mm as the file says, one a tool; empty: it does not
+    std::vector<Decimal> nozzles;         ///< diameters in mm, exactly as the file says, one a tool; empty: it does not
+    std::vector<double> filaments;        ///< the same of filaments
     double filament_diameter = 0;         ///< mm; what widths were computed with where the file gives none (tool 0)
     /// Of the layers whose height is the distance to the next lower one: those that lie beside that one, over others.
     int interleaved_layers = 0;

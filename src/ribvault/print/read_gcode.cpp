@@ -72,7 +72,7 @@ public:
         hints.filaments = comments_.filaments, hints.volumetric = comments_.volumetric;
         hints.infill_layers = options_.infill_layers;
         if (!comments_.nozzles.empty())
-            hints.nozzle = *std::max_element(comments_.nozzles.begin(), comments_.nozzles.end());
+            hints.nozzle = to_double(*std::max_element(comments_.nozzles.begin(), comments_.nozzles.end()));
         hints.widest_track =
             std::llround(widest_track * pm_per_mm * options_.nozzle.value_or(hints.nozzle.value_or(usual_nozzle)));
         if (options_.filament_diameter) hints.filaments = {*options_.filament_diameter};
