@@ -3,13 +3,16 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "mesh/solids.hpp"
 #include "report/scratch_folder.hpp"
 #include "ribvault/error.hpp"
 #include "ribvault/pipeline/generate.hpp"
+#include "ribvault/print/read_gcode.hpp"
 
 using namespace ribvault;
 using namespace ribvault::test;
@@ -381,6 +384,33 @@ TEST_CASE("filament pushed in one place makes no track that holds up the next la
     // What is pushed must itself be held up.
     std::ofstream(job.gcode) << "M83\nG0 X0 Z0.2\nG1 X10 E0.33\nG0 X5 Z0.4\nG1 X5.3 E2\nM84\n";
     CHECK_FALSE(verify_print(job).supported);
+}
+
+TEST_CASE("a print of ours without its comments is read as wide as it was written", "[verify-print]") {
+    const ScratchFolder folder;
+    const std::filesystem::path gcode = cube(folder), bare = folder / "bare.gcode";
+    std::istringstream lines(contents(gcode));
+    std::ofstream out(bare);
+    for (std::string line; std::getline(lines, line);) out << line.substr(0, line.find(';')) << '\n';
+    out.close();
+    std::map<std::uint32_t, GcodeTrack> written;  // by line
+    for (const GcodeLayer& layer : read_gcode(gcode).layers)
+        for (const GcodeTrack& t : layer.tracks) written[t.line] = t;
+    const GcodePrint print = read_gcode(bare);
+    CHECK(print.widths_written == 0);
+    CHECK(print.too_wide.tracks == 0);
+    std::size_t tracks = 0, exactly = 0;
+    for (const GcodeLayer& layer : print.layers)
+        for (const GcodeTrack& t : layer.tracks) {
+            CHECK(static_cast<double>(std::abs(t.width - written[t.line].width)) * 1e-9 < 0.01);
+            CHECK(t.width_below == t.width);
+            ++tracks, exactly += t.width == written[t.line].width;
+        }
+    CHECK(written.size() - tracks < 10);  // dots
+    CHECK(static_cast<double>(exactly) > 0.99 * static_cast<double>(tracks));
+    VerifyJob job;
+    job.gcode = bare;
+    CHECK(verify_print(job).unsupported_mm.hi < 1);
 }
 
 TEST_CASE("a cut file is judged up to the cut, with a warning", "[verify-print]") {

@@ -123,6 +123,32 @@ TEST_CASE("the end of a path that is too short for a flow of its own shares the 
     for (const GcodeTrack& t : print.layers[0].tracks) CHECK(t.width == 400000000);
 }
 
+TEST_CASE("stretches that are not equally wide do not share a flow, however short", "[gcode]") {
+    // 0.085 mm each, 0.30 to 0.48 mm wide, and back
+    std::string text = "M83\nG1 Z.2\nG1 X0 Y0\n";
+    const auto width_of = [](int k) { return 0.3 + 0.02 * (k < 10 ? k : 19 - k); };
+    for (int k = 0; k < 20; ++k)
+        text += "G1 X" + std::to_string(0.085 * (k + 1)).substr(0, 7) + " E" +
+                std::to_string(0.085 * width_of(k) * 0.2 / (std::numbers::pi / 4 * 1.75 * 1.75)).substr(0, 7) + "\n";
+    const GcodePrint print = read(text);
+    REQUIRE(print.layers[0].tracks.size() == 20);
+    for (int k = 0; k < 20; ++k) {
+        const GcodeTrack& t = track(print, 0, static_cast<std::size_t>(k));
+        CHECK(width(t) == Approx(width_of(k)).margin(1e-9));
+        CHECK(t.width == t.width_below);
+    }
+}
+
+TEST_CASE("a width has no more decimals than what E is rounded by needs", "[gcode]") {
+    const auto width_of = [](const std::string& e) {
+        return width(track(read("M83\nG1 Z.2\nG1 X.3 E" + e + "\nG1 X5\nG1 X9 E.12345\n"), 0, 0));
+    };
+    CHECK(width_of(".00998") == 0.4);  // 0.40008 +- 0.0004
+    CHECK(width_of(".00997") == 0.4);
+    CHECK(width_of(".01002") == Approx(0.402));
+    CHECK(width_of(".00935") == Approx(0.375));
+}
+
 TEST_CASE("a track with more filament than a nozzle lays is no wider than its disc, and holds up as three nozzles do",
           "[gcode]") {
     const double filament = std::numbers::pi / 4 * 1.75 * 1.75;

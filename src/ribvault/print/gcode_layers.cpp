@@ -17,9 +17,14 @@ constexpr Int128 most_pressed = 3 * Int128{decimal_one} / 10;  // 0.3 mm: more i
 
 GcodePoint flat(const std::array<Decimal, 3>& p) { return {p[0], p[1]}; }
 
-/// 1e-9 mm.
-std::int64_t in_whole_um(double mm) {
-    return std::llround(std::clamp(std::round(1000 * mm), 1.0, static_cast<double>(widest) / 1e6)) * 1000000;
+/// The number with the fewest decimals, three at most, that differs by no more than this share; in 1e-9 mm.
+std::int64_t shortest_number(double mm, double share) {
+    const double least = std::clamp(1000 * mm, 1.0, static_cast<double>(widest) / 1e6);  // µm
+    for (const double step : {100, 10}) {
+        const double rounded = std::round(least / step) * step;
+        if (rounded > 0 && std::abs(rounded - least) <= share * least) return std::llround(rounded) * 1000000;
+    }
+    return std::llround(least) * 1000000;
 }
 
 struct FlowWidths {
@@ -30,12 +35,12 @@ struct FlowWidths {
 
 /// Of a track that is pushed over `area`, mm², along `length`, mm. A disc of the same area has all that is pushed in
 /// it, whatever the length.
-FlowWidths widths_of(double area, double length, double widest_track) {
+FlowWidths widths_of(double area, double length, bool whole_path, double widest_track) {
     if (length <= 0) return {0, 0};
     const double disc = std::sqrt(4 / std::numbers::pi * area), rectangle = area / length,
                  least = std::min(rectangle, disc);
     if (rectangle > widest_track) return {least, std::min(least, widest_track), least > widest_track};
-    const bool dot = 4 * length < disc;
+    const bool dot = whole_path && 4 * length < disc;
     return {rectangle, dot ? least : rectangle, false, dot};
 }
 
@@ -71,16 +76,37 @@ std::int64_t LayerCollector::width_of(const Extrusion& e) {
         close_flow();
         return *e.width;
     }
+    Flow alone;
+    alone.length = e.length_mm, alone.pushed = e.pushed, alone.step = static_cast<float>(e.pushed_step);
     const bool same = flow_open_ && flows_.back().feature == e.feature && flows_.back().tool == e.tool &&
-                      flows_.back().volumetric == e.volumetric && flows_.back().length < pooled_mm;
+                      flows_.back().volumetric == e.volumetric && flows_.back().length < pooled_mm &&
+                      may_be_as_wide(flows_.back(), alone, e.length_step);
     if (!same) {
         close_flow();
-        flows_.push_back({0, 0, {}, e.volumetric, e.tool, e.feature, paths_});
+        alone.path = static_cast<std::uint32_t>(paths_);
+        alone.tool = e.tool, alone.feature = e.feature, alone.volumetric = e.volumetric;
+        flows_.push_back(alone);
+        length_step_ = e.length_step;
         flow_open_ = true;
+    } else {
+        flows_.back().length += e.length_mm;
+        flows_.back().pushed += e.pushed;
     }
-    flows_.back().length += e.length_mm;
-    flows_.back().pushed += e.pushed;
     return -static_cast<std::int64_t>(flows_.size());
+}
+
+/// Whether two stretches push as much for their lengths, up to the last decimals of what the file writes.
+bool LayerCollector::may_be_as_wide(const Flow& a, const Flow& b, double length_step) {
+    if (a.length <= 0 || b.length <= 0) return true;
+    const auto error = [&](const Flow& f) { return (f.step + f.pushed / f.length * length_step) / f.length; };
+    return std::abs(a.pushed / a.length - b.pushed / b.length) <= error(a) + error(b);
+}
+
+bool LayerCollector::is_whole_path(std::size_t flow) const {
+    const auto same_path = [&](std::size_t other) {
+        return other < flows_.size() && flows_[other].path == flows_[flow].path;
+    };
+    return !same_path(flow + 1) && !same_path(flow - 1);
 }
 
 /// What is left of a path, too short for a flow of its own, shares the one before.
@@ -90,7 +116,7 @@ void LayerCollector::close_flow() {
     auto before = std::next(flows_.rbegin());
     while (before->with_previous) ++before;
     if (before->path != last.path || before->feature != last.feature || before->tool != last.tool ||
-        before->volumetric != last.volumetric)
+        before->volumetric != last.volumetric || !may_be_as_wide(*before, last, length_step_))
         return;
     before->length += last.length;
     before->pushed += last.pushed;
@@ -232,9 +258,11 @@ void LayerCollector::resolve_widths(GcodePrint& print, GcodeLayer& layer, const 
         const double diameter =
             hints.filaments[std::min(static_cast<std::size_t>(flow->tool), hints.filaments.size() - 1)];
         const double filament = flow->volumetric || hints.volumetric ? 1 : std::numbers::pi / 4 * diameter * diameter;
-        const FlowWidths widths =
-            widths_of(flow->pushed * filament / height, flow->length, static_cast<double>(hints.widest_track) * 1e-9);
-        t.width = in_whole_um(widths.above), t.width_below = in_whole_um(widths.below);
+        const FlowWidths widths = widths_of(flow->pushed * filament / height, flow->length,
+                                            is_whole_path(static_cast<std::size_t>(flow - flows_.begin())),
+                                            static_cast<double>(hints.widest_track) * 1e-9);
+        const double error = flow->pushed > 0 ? flow->step / flow->pushed : 0;
+        t.width = shortest_number(widths.above, error), t.width_below = shortest_number(widths.below, error);
         if (widths.unsure) unsure.push_back(static_cast<std::size_t>(&t - layer.tracks.data()));
         if (!widths.too_wide) continue;
         print.too_wide.widest = hints.widest_track;

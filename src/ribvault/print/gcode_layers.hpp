@@ -20,6 +20,7 @@ struct Extrusion {
     std::uint16_t feature = 0;
     std::optional<std::int64_t> width;   ///< 1e-9 mm, where the file says it
     std::optional<std::int64_t> height;  ///< 1e-9 mm, where the file says it
+    double pushed_step = 0, length_step = 0;  ///< the last decimals that the file writes of E and of places
     int over_raft = 0;                   ///< 1: of the first layer over a raft, 2: of the second
     std::uint32_t line = 0;
 };
@@ -47,8 +48,9 @@ public:
     /// "Initial Layer Z Overlap"): where the file says no heights, its top is one layer below the second's, when that
     /// moves it by no more than 0.3 mm. Heights: see resolve_heights. Widths that the file does not say: pushed volume
     /// over length times height, the rectangle of the same cross-section, to 1 µm: narrower than the round-edged track
-    /// that is printed by 0.21 times the height. Volumes of stretches below 0.25 mm are pooled, as E is rounded, with
-    /// what comes after or, at the end of a path, before. Where a climb ends less than a layer over the last turn, its
+    /// that is printed by 0.21 times the height. Volumes of stretches below 0.25 mm are pooled where they may be
+    /// equally wide for what the file rounds, with what comes after or, at the end of a path, before. A width has as
+    /// few decimals as may be for what E is rounded by. Where a climb ends less than a layer over the last turn, its
     /// height is the mean of both.
     ///
     /// A path shorter than a quarter of the disc of its volume, which does not begin or end on another track, is a dot
@@ -60,11 +62,12 @@ public:
 private:
     struct Flow {
         double length = 0, pushed = 0;
+        float step = 0;  ///< of the last decimal of `pushed`
+        std::uint32_t path = 0;
         std::optional<std::int64_t> height;  ///< 1e-9 mm, where it is not the layer's
-        bool volumetric = false;
         int tool = 0;
         std::uint16_t feature = 0;
-        std::uint64_t path = 0;
+        bool volumetric = false;
         bool with_previous = false;  ///< the end of a path, pooled with the flow before
     };
     struct Climb {
@@ -76,6 +79,8 @@ private:
 
     std::int64_t width_of(const Extrusion& e);
     void close_flow();
+    bool is_whole_path(std::size_t flow) const;
+    static bool may_be_as_wide(const Flow& a, const Flow& b, double length_step);
     void file(GcodeLayer& layer, const Extrusion& e, std::int64_t width, bool continues);
     GcodeLayer& group(const Extrusion& e);
     void file_level_end();
@@ -96,6 +101,7 @@ private:
     bool in_path_ = false;
     std::vector<Flow> flows_;
     bool flow_open_ = false;
+    double length_step_ = 0;  ///< mm; of the last decimal of places
 };
 
 /// The rule for `below` (1e-9 mm throughout; all heights are positive). An entry with top z and height h has its bottom

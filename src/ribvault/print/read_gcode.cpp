@@ -19,6 +19,7 @@ namespace {
 
 constexpr double usual_filament = 1.75;             // mm
 constexpr double usual_nozzle = 0.4;                // mm
+constexpr std::uint64_t moves_to_see = 10000;
 constexpr double widest_track = 3;                  // nozzles; the flat around the hole is hardly wider
 constexpr std::int64_t farthest = 10000;            // mm from the origin; no printer's bed reaches so far
 constexpr std::size_t block_size = 1 << 18;         // bytes
@@ -166,6 +167,7 @@ private:
             return;
         }
         retracted_ = false;
+        see_last_decimals();
         if (print_.lines > std::numeric_limits<std::uint32_t>::max()) fail("has more than 4 billion lines", "split it");
         Extrusion e = extrusion();
         for (const Decimal& d : motion_.to)
@@ -189,8 +191,20 @@ private:
         }
     }
 
+    /// The last decimals that are written, from the third on; a few thousand moves show them.
+    void see_last_decimals() {
+        if (motions_ > moves_to_see) return;
+        const auto see = [&](char letter, Int128& step) {
+            if (words_.has(letter))
+                while (words_[letter].value % step != 0) step /= 10;
+        };
+        see('E', pushed_step_), see('X', length_step_), see('Y', length_step_);
+        pushed_step_mm_ = to_double({pushed_step_}), length_step_mm_ = to_double({length_step_});
+    }
+
     Extrusion extrusion() const {
         Extrusion e;
+        e.pushed_step = pushed_step_mm_, e.length_step = length_step_mm_;
         e.from = motion_.from, e.to = motion_.to;
         e.pushed = motion_.pushed;
         e.volumetric = motion_.volumetric;
@@ -234,6 +248,8 @@ private:
     std::vector<std::array<Decimal, 3>> points_;
     std::string rest_;  ///< of a line whose end has not come yet
     std::uint64_t motions_ = 0;
+    Int128 pushed_step_ = decimal_one / 1000, length_step_ = decimal_one / 1000;
+    double pushed_step_mm_ = 0, length_step_mm_ = 0;
     bool retracted_ = true;
 };
 
