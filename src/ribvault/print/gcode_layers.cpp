@@ -7,12 +7,14 @@
 #include <numbers>
 #include <utility>
 
+#include "ribvault/exact/nearest_segment.hpp"
+
 namespace ribvault {
 namespace {
 
 constexpr double pooled_mm = 0.25;  // shorter stretches share one flow
 constexpr std::int64_t widest = 100 * pm_per_mm;
-constexpr double on_track = 0.01;                              // mm from its centre line
+constexpr double on_track = units_per_mm / 100.0;              // units from its centre line
 constexpr Int128 most_pressed = 3 * Int128{decimal_one} / 10;  // 0.3 mm: more is no overlap, but air
 
 GcodePoint flat(const std::array<Decimal, 3>& p) { return {p[0], p[1]}; }
@@ -44,27 +46,30 @@ FlowWidths widths_of(double area, double length, bool whole_path, double widest_
     return {rectangle, dot ? least : rectangle, false, dot};
 }
 
-double distance(const GcodePoint& p, const GcodePoint& a, const GcodePoint& b) {
-    const double px = to_double(p.x - a.x), py = to_double(p.y - a.y), x = to_double(b.x - a.x),
-                 y = to_double(b.y - a.y), square = x * x + y * y;
-    const double share = square > 0 ? std::clamp((px * x + py * y) / square, 0.0, 1.0) : 0;
-    return std::hypot(px - share * x, py - share * y);
+Point on_lattice(const GcodePoint& p) {
+    return {round_to_lattice(to_double(p.x) * units_per_mm), round_to_lattice(to_double(p.y) * units_per_mm)};
 }
 
 /// Of these tracks, those that begin or end on the centre line of another have the round end in that one's material:
 /// what is pushed for them is what they add to it.
 void widen_stubs_on_tracks(GcodeLayer& layer, const std::vector<std::size_t>& stubs) {
-    std::vector<char> is_stub(layer.tracks.size(), 0);
-    for (const std::size_t k : stubs) is_stub[k] = 1;
+    if (stubs.empty()) return;
+    std::vector<Segment> others;
+    for (std::size_t k = 0, next = 0; k < layer.tracks.size(); ++k) {
+        const GcodeTrack& t = layer.tracks[k];
+        if (next < stubs.size() && stubs[next] == k)
+            ++next;
+        else
+            others.push_back({on_lattice(layer.points[t.a]), on_lattice(layer.points[t.b])});
+    }
+    if (others.empty()) return;
+    const NearestSegment tree(std::move(others));
+    const auto is_on_track = [&](std::size_t point) {
+        return tree.nearest(on_lattice(layer.points[point])).distance.value() <= on_track * on_track;
+    };
     for (const std::size_t k : stubs) {
         GcodeTrack& stub = layer.tracks[k];
-        for (std::size_t j = 0; j < layer.tracks.size() && stub.width_below < stub.width; ++j) {
-            const GcodeTrack& t = layer.tracks[j];
-            const GcodePoint &a = layer.points[t.a], &b = layer.points[t.b];
-            if (!is_stub[j] &&
-                std::min(distance(layer.points[stub.a], a, b), distance(layer.points[stub.b], a, b)) <= on_track)
-                stub.width_below = stub.width;
-        }
+        if (is_on_track(stub.a) || is_on_track(stub.b)) stub.width_below = stub.width;
     }
 }
 
