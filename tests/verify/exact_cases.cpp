@@ -6,6 +6,7 @@
 
 #include "brute_force.hpp"
 #include "ribvault/error.hpp"
+#include "ribvault/exact/rational.hpp"
 
 using namespace ribvault;
 using namespace ribvault::test;
@@ -283,6 +284,7 @@ TEST_CASE("settings without a radius and missing geometry are usage errors") {
     odd.support_width = 40001;
     CHECK_THROWS_AS(verify(l, l, odd), Error);
     CHECK_THROWS_AS(verify_layer(1, LayerGeometry{}, view(l), how), Error);
+    CHECK_THROWS_AS(verify(only_tracks({{{0, 0}, {lattice_bound + 1, 0}}}), l, how), Error);
 }
 
 TEST_CASE("nothing over nothing is supported") {
@@ -293,6 +295,22 @@ TEST_CASE("nothing over nothing is supported") {
     CHECK(v.supported);
     REQUIRE(v.external);
     area_is(*v.external, 30.0 * 30.0 - 20.0 * 20.0);
+}
+
+TEST_CASE("sums of bounds are bounds of the sum") {
+    Enclosure sum;
+    Rational exact;
+    for (int k = 1; k <= 1000; ++k) {
+        const Rational third(k, 3);
+        const double below = third.get_d();  // truncated
+        sum += {below, std::nextafter(below, 1e9)};
+        exact += third;
+        REQUIRE(Rational(sum.lo) <= exact);
+        REQUIRE(Rational(sum.hi) >= exact);
+    }
+    CHECK(sum.hi - sum.lo < 1e-6);
+    const Enclosure one{1.1, 1.3}, none;
+    CHECK(Enclosure(one) == (Enclosure(none) += one));
 }
 
 TEST_CASE("several threads get the same verdicts") {
