@@ -88,9 +88,11 @@ function runWords(run) {
   const s = run.header.settings, verdict = run.header.verdict, v = verdict.external_overhangs.length, near = (verdict.layers_with_patches_in_gap || []).length;
   const how = s.propagation === "shrink" ? "thrifty" : s.straighten ? "straightened" : "not straightened";
   const thin = run.wall < run.nozzle ? ` (supports ${run.wall} mm)` : "";
+  const bare = bareLayers(run).length;
   const wide = s.wall_lines > 1 ? `, ${s.wall_lines} side by side in long or tall walls` : "";
   return `Layers of ${s.layer_height_mm} mm, tracks of ${s.nozzle_mm} mm${thin}${wide}, ρ = ${s.support_radius_mm} mm; ` +
     `supports ${how}, gaps ${s.gaps}, seed ${s.seed}.` +
+    (bare === 0 ? "" : ` Nothing is printed on ${many(bare, "layer")}, without room for a track.`) +
     (v === 0 ? "" : !run.outside ? ` The outside overhangs on ${many(v, "layer")}, which no internal support can hold.`
       : run.reach > run.rho ? ` On ${many(v, "layer")} there are crevices where the gap leaves no room for a support within ρ.` : ` Something outside has no support on ${many(v, "layer")}.`) +
     (near > 0 ? ` On ${many(near, "layer")} the object is too thin to be printed as thin as it is, and its tracks come nearer to a support than the gap.` : "");
@@ -104,6 +106,7 @@ function layerVerdict(run, k) {
   if (run.kind === "gcode") return !run.refuted(k) ? k === 0 ? "on the bed" : run.bridged(k) > 0 ? "supported, but for bridges" : "supported" : run.good ? "hangs, as --min-area lets it" : "hangs";
   if (run.refuted(k)) return "not proved";
   if (overNarrowPlaces(run).includes(k)) return "proved, but begins in the air";
+  if (isBare(run.numbers(k))) return "nothing is printed";
   return k === 0 ? "on the bed" : !run.hangs(k) ? "proved" : run.outside ? "proved, but for crevices" : "proved inside, overhangs outside";
 }
 
@@ -111,6 +114,7 @@ function heading(run, k) { return `layer ${k}, z ${height(run.bottom(k))} to ${h
 
 /** Nothing is printed on a layer (but skirt and brim): no place of it has room for a track. */
 const isBare = n => n.perimeter_length_mm + n.cover_length_mm + n.thin_wall_length_mm + n.support_printed_length_mm + n.external_support_printed_length_mm === 0;
+const bareLayers = run => Array.from({ length: run.count }, (_, k) => k).filter(k => isBare(run.numbers(k)));
 
 /** What is proved of layer k. */
 function layerProof(run, k) {
@@ -165,7 +169,7 @@ function worthALook(run) {
     return list;
   }
   for (const k of refuted.slice(0, 8)) list.push([k, "not proved"]);
-  const bare = of.filter(k => isBare(run.numbers(k)));
+  const bare = bareLayers(run);
   if (bare.length > 0) list.push([bare[0], bare.length === 1 ? "nothing is printed" : `nothing is printed, as on ${many(bare.length - 1, "layer")} more`]);
   most(k => run.numbers(k).support_length_mm, v => `most supports, ${fixed(v, 1)} mm`);
   most(k => run.numbers(k).trees, v => `most trees, ${v}`);
