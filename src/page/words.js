@@ -106,15 +106,14 @@ function layerVerdict(run, k) {
   if (run.kind === "gcode") return !run.refuted(k) ? k === 0 ? "on the bed" : run.bridged(k) > 0 ? "supported, but for bridges" : "supported" : run.good ? "hangs, as --min-area lets it" : "hangs";
   if (run.refuted(k)) return "not proved";
   if (overNarrowPlaces(run).includes(k)) return "proved, but begins in the air";
-  if (isBare(run.numbers(k))) return "nothing is printed";
+  if (run.numbers(k).empty) return "nothing is printed";
   return k === 0 ? "on the bed" : !run.hangs(k) ? "proved" : run.outside ? "proved, but for crevices" : "proved inside, overhangs outside";
 }
 
 function heading(run, k) { return `layer ${k}, z ${height(run.bottom(k))} to ${height(run.top(k))} mm: ${layerVerdict(run, k)}`; }
 
-/** Nothing is printed on a layer (but skirt and brim): no place of it has room for a track. */
-const isBare = n => n.perimeter_length_mm + n.cover_length_mm + n.thin_wall_length_mm + n.support_printed_length_mm + n.external_support_printed_length_mm === 0;
-const bareLayers = run => Array.from({ length: run.count }, (_, k) => k).filter(k => isBare(run.numbers(k)));
+/** Layers on which nothing is printed but skirt and brim; files from before they were marked have none. */
+const bareLayers = run => Array.from({ length: run.count }, (_, k) => k).filter(k => run.numbers(k).empty);
 
 /** What is proved of layer k. */
 function layerProof(run, k) {
@@ -149,7 +148,7 @@ function layerWords(run, k) {
   const narrow = !n.thin_places ? "" : ` ${many(n.thin_places, "place")}, ${fixed(n.thin_area_mm2, 2)} mm² in all, ${n.thin_places === 1 ? "is" : "are"} too narrow for a track.`;
   const mended = (n.closings.length > 0 ? ` ${many(n.closings.length, "gap")} in open contours ${n.closings.length === 1 ? "was" : "were"} closed.` : "") +
     (n.slivers_removed ? " Slits and slivers narrower than 0.4 µm are gone." : "");
-  return `${layerProof(run, k)} ${isBare(n) ? "Nothing is printed on it." : `Shell of ${fixed(n.shell_volume_mm3, 2)} mm³.`} ${supports} ${grown}${narrow}${mended}` +
+  return `${layerProof(run, k)} ${n.empty ? "Nothing is printed on it." : `Shell of ${fixed(n.shell_volume_mm3, 2)} mm³.`} ${supports} ${grown}${narrow}${mended}` +
     (out ? ` Outside, ${range(out.area_mm2[0], out.area_mm2[1])} mm² ${run.outside ? "have no support" : "hang over the layer below"}.` : "") +
     (n.patch_in_gap ? " Tracks of the object come nearer to a support than the gap." : "");
 }

@@ -147,6 +147,17 @@ class Printing(unittest.TestCase):
             self.assertEqual(done.returncode, 2)
             self.assertIn("svg/layer_00003.svg has the name of a picture in the folder of --svg", done.stderr)
             self.assertFalse((self.folder / "svg").exists())
+        (self.folder / "link.html").symlink_to("svg/layer_00001.svg")
+        done = subprocess.run([PROGRAM, "generate", CUBE, "--html", "link.html", "--svg", "svg"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+
+    def test_a_print_of_dots_is_not_empty(self):
+        (self.folder / "post.off").write_text("OFF\n8 12 0\n" + "".join("%g %g %g\n" % (x, y, z) for z in (0, 4) for x, y in ((0, 0), (0.4, 0), (0.4, 0.4), (0, 0.4))) +
+                                              "3 0 3 2\n3 0 2 1\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n")
+        done = subprocess.run([PROGRAM, "generate", "post.off", "-o", "a.gcode", "--report", "a.json"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("nothing is printed", done.stdout)
+        self.assertEqual({layer["empty"] for layer in json.loads((self.folder / "a.json").read_text())["layers"]}, {False})
 
     def test_import_says_what_it_ignored(self):
         (self.folder / "prusa.ini").write_text("layer_height = 0.3\nperimeters = 2\nfill_density = 20%\nbed_shape = 0x0,200x0,200x180,0x180\n")

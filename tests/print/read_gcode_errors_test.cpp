@@ -23,6 +23,8 @@ TEST_CASE("malformed lines: which line, and what was expected", "[gcode][errors]
     CHECK_THAT(complaint(good + "G1 X99999999 E1\n"), Contains("line 4") && Contains("10000000 or more"));
     CHECK_THAT(complaint(good + "G1 X.1234567890123456789 E1\n"),
                Contains("line 4") && Contains("more than 18 decimals"));
+    CHECK_THAT(complaint(good + "G1 X20000 E1\n"), Contains("line 4") && Contains("more than 10 m from the origin"));
+    CHECK_THAT(complaint(good + "G0 X20000\nG1 X1 E1\n"), Contains("line 5") && Contains("more than 10 m"));
     CHECK_THAT(complaint(good + "G1 X1 {temperature}\n"), Contains("line 4") && Contains("'{temperature}'"));
     for (const char* bare : {"X20 E1\n", "x 20 e1\n", "F1200 X20 E1\n", "N7 X20Y5 E1*12\n"})
         CHECK_THAT(complaint(good + bare), Contains("line 4") && Contains("expected G0 to G3"));

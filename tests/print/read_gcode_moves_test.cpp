@@ -149,6 +149,30 @@ TEST_CASE("a width has no more decimals than what E is rounded by needs", "[gcod
     CHECK(width_of(".00935") == Approx(0.375));
 }
 
+TEST_CASE("short stretches share a flow in inches as in mm", "[gcode]") {
+    // 0.1 mm each, 0.4 mm wide, with E to five decimals of its unit: alone their widths would come out apart by a
+    // third.
+    for (const double unit : {1.0, 25.4}) {
+        std::string text =
+            std::string(unit == 1 ? "" : "G20\n") + "M83\nG1 Z" + std::to_string(0.2 / unit) + "\nG1 X0 Y0\n";
+        const double flow = 0.02 * 0.4 * 0.2 / (std::numbers::pi / 4 * 1.75 * 1.75) / unit;
+        double given = 0;
+        for (int k = 1; k <= 100; ++k) {
+            const double e = std::round((k * flow - given) * 1e5) / 1e5;
+            given += e;
+            text += "G1 X" + std::to_string(k * 0.02 / unit) + " E" + std::to_string(e).substr(0, 7) + "\n";
+        }
+        const GcodePrint print = read(text);
+        REQUIRE(print.layers[0].tracks.size() == 100);
+        double least = 1, most = 0;
+        for (const GcodeTrack& t : print.layers[0].tracks)
+            least = std::min(least, width(t)), most = std::max(most, width(t));
+        CAPTURE(unit, least, most);
+        CHECK(least > 0.37);
+        CHECK(most < 0.43);
+    }
+}
+
 TEST_CASE("a track with more filament than a nozzle lays is no wider than its disc, and holds up as three nozzles do",
           "[gcode]") {
     const double filament = std::numbers::pi / 4 * 1.75 * 1.75;

@@ -31,7 +31,9 @@ void check_outputs(const std::vector<fs::path>& inputs, const std::vector<NamedO
             if (is_one_file(*file, input))
                 throw Error(ErrorKind::usage, option + " " + file->string() +
                                                   " is an input, which would be lost; give the output another name");
-        if (pictures && is_picture_name(file->filename().string()) && is_one_file(*file, *pictures / file->filename()))
+        std::error_code error;
+        const fs::path name = follow_links(fs::absolute(*file, error)).filename();
+        if (pictures && is_picture_name(name.string()) && is_one_file(*file, *pictures / name))
             throw Error(ErrorKind::usage,
                         option + " " + file->string() +
                             " has the name of a picture in the folder of --svg; give it another name");

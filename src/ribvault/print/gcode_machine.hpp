@@ -31,6 +31,9 @@ public:
     /// Obeys one line. What is wrong with it, or empty; `motion.kind` is none when nothing moves and nothing is pushed.
     std::string apply(const GcodeWords& words, GcodeMotion& motion);
 
+    /// Does the file count in inches at present (G20)?
+    bool in_inches() const { return inches_; }
+
 private:
     std::string move(const GcodeWords& w, GcodeMotion& motion);
     std::string find_centre(const GcodeWords& w, GcodeMotion& motion) const;

@@ -170,9 +170,11 @@ private:
         see_last_decimals();
         if (print_.lines > std::numeric_limits<std::uint32_t>::max()) fail("has more than 4 billion lines", "split it");
         Extrusion e = extrusion();
-        for (const Decimal& d : motion_.to)
-            if (d.value > farthest * Int128{decimal_one} || d.value < -farthest * Int128{decimal_one})
-                fail_line("extrudes more than 10 m from the origin, where no printer is; expected a place on a bed");
+        for (const auto* end : {&motion_.from, &motion_.to})
+            for (const Decimal& d : *end)
+                if (d.value > farthest * Int128{decimal_one} || d.value < -farthest * Int128{decimal_one})
+                    fail_line(
+                        "extrudes more than 10 m from the origin, where no printer is; expected a place on a bed");
         if (!arc) {
             e.length_mm = distance(e.from, e.to);
             extrude(e);
@@ -199,12 +201,14 @@ private:
                 while (words_[letter].value % step != 0) step /= 10;
         };
         see('E', pushed_step_), see('X', length_step_), see('Y', length_step_);
-        pushed_step_mm_ = to_double({pushed_step_}), length_step_mm_ = to_double({length_step_});
+        last_of_e_ = to_double({pushed_step_}), last_of_places_ = to_double({length_step_});
     }
 
     Extrusion extrusion() const {
         Extrusion e;
-        e.pushed_step = pushed_step_mm_, e.length_step = length_step_mm_;
+        const double unit = machine_.in_inches() ? 25.4 : 1;
+        e.pushed_step = last_of_e_ * unit * (motion_.volumetric ? unit * unit : 1);
+        e.length_step = last_of_places_ * unit;
         e.from = motion_.from, e.to = motion_.to;
         e.pushed = motion_.pushed;
         e.volumetric = motion_.volumetric;
@@ -249,7 +253,7 @@ private:
     std::string rest_;  ///< of a line whose end has not come yet
     std::uint64_t motions_ = 0;
     Int128 pushed_step_ = decimal_one / 1000, length_step_ = decimal_one / 1000;
-    double pushed_step_mm_ = 0, length_step_mm_ = 0;
+    double last_of_e_ = 0, last_of_places_ = 0;  ///< the same, in the file's unit
     bool retracted_ = true;
 };
 

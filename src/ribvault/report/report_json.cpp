@@ -216,7 +216,8 @@ Json layer_members(const LayerReport& l) {
             {"verdict", verdict(l.verdict)},
             {"print", print_verdict(l.print)},
             {"closings", closings},
-            {"slivers_removed", l.slivers_removed}};
+            {"slivers_removed", l.slivers_removed},
+            {"empty", l.empty}};
 }
 
 Json summary(const VerdictSummary& v) {
