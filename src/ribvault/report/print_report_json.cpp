@@ -1,6 +1,6 @@
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "ribvault/report/json_values.hpp"
 #include "ribvault/report/print_report.hpp"
 
 namespace ribvault {
@@ -8,24 +8,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A measured length, to 1e-6 mm; not finite: null.
-Json measured(double value) {
-    if (!std::isfinite(value)) return nullptr;
-    const double rounded = std::round(value * 1e6) / 1e6;
-    return rounded == 0 ? 0 : rounded;
-}
-
-/// Bounds are not rounded: the statement is about these very numbers.
-Json bounds(const Enclosure& e) {
-    const auto number = [](double v) -> Json { return std::isfinite(v) ? Json(v) : Json(nullptr); };
-    return Json::array({number(e.lo), number(e.hi)});
-}
-
 Json point(const std::array<double, 2>& p) { return Json::array({measured(p[0]), measured(p[1])}); }
-
-Json stages(const StageCounts& c) {
-    return {{"interval", c.interval}, {"rational", c.rational}, {"algebraic", c.algebraic}};
-}
 
 Json feature(const HangingFeature& f) {
     Json j{{"name", f.name},

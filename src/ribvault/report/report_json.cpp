@@ -1,21 +1,12 @@
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "ribvault/report/json_values.hpp"
 #include "ribvault/report/report_members.hpp"
 
 namespace ribvault {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// A measured length, area or volume, to 1e-6: below that it says nothing.
-double measured(double value) {
-    const double rounded = std::round(value * 1e6) / 1e6;
-    return rounded == 0 ? 0 : rounded;  // no -0
-}
-
-/// Bounds are not rounded: the statement is about these very numbers.
-Json bounds(const Enclosure& e) { return {e.lo, e.hi}; }
 
 Json facts(const MeshFacts& f) {
     return {{"triangles", f.triangles},
@@ -141,10 +132,6 @@ Json printer(const PrinterSettings& p) {
             {"print_acceleration_mm_s2", p.limits.print_acceleration},
             {"retract_acceleration_mm_s2", p.limits.retract_acceleration},
             {"travel_acceleration_mm_s2", p.limits.travel_acceleration}};
-}
-
-Json stages(const StageCounts& c) {
-    return {{"interval", c.interval}, {"rational", c.rational}, {"algebraic", c.algebraic}};
 }
 
 /// Bounds and witnesses are not rounded: the statement is about these very numbers.

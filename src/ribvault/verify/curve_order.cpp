@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ribvault/verify/point_signs.hpp"
+
 namespace ribvault::verify {
 
 namespace {
@@ -65,20 +67,9 @@ Place place_on_line(TraceProblem& trace, const Curve& line, int vertex) {
 bool on_curve(TraceProblem& trace, TraceVertex& v, int curve) {
     if (v.first == curve || v.second == curve) return true;
     const Curve& c = curve_of(trace, curve);
-    const auto sign = [&](const auto& f) { return sign_at(v.at, f, Stage::algebraic); };
-    const auto apart = [&]<class NT>(const Vec<NT>& p) -> NT {
-        const Vec<NT> a = at<NT>(trace, c.a), u = p - a;
-        const NT r = number<NT>(c.radius);
-        if (!c.line) return NT(dot(u, u) - r * r);
-        const Vec<NT> d = at<NT>(trace, c.b) - a;
-        const NT x = cross(d, u);
-        return NT(x * x - r * r * dot(d, d));
-    };
-    const auto to_left = [&]<class NT>(const Vec<NT>& p) -> NT {
-        const Vec<NT> a = at<NT>(trace, c.a);
-        return cross(Vec<NT>(at<NT>(trace, c.b) - a), Vec<NT>(p - a));
-    };
-    return sign(apart) == 0 && (!c.line || sign(to_left) <= 0);
+    if (!c.line) return disc_sign(v.at, c.a, c.radius, Stage::algebraic) == 0;
+    return strip_sign(v.at, c.a, c.b, c.radius, Stage::algebraic) == 0 &&
+           orientation_sign(v.at, c.a, c.b, Stage::algebraic) <= 0;
 }
 
 bool apart(const Vec<Rational>& p, const Vec<Rational>& q, unsigned bits) {

@@ -24,7 +24,13 @@ Vec<NT> at(const CoverProblem& problem, int vertex) {
     return exact_point<NT>(problem.vertices[vertex]);
 }
 
-// Sign of |v - centre| - radius.
+int line_side(const CoverProblem& problem, const Edge& e, double x, double y) {
+    const Vec<Interval> a = at<Interval>(problem, e.a), b = at<Interval>(problem, e.b);
+    return sign_of(cross(Vec<Interval>(b - a), Vec<Interval>(Vec<Interval>{Interval(x), Interval(y)} - a)));
+}
+
+}  // namespace
+
 int disc_sign(Located& v, int centre, const Radius& radius, Stage last) {
     if (known_on_circle(v.candidate, centre, radius)) return 0;
     const CoverProblem& problem = *v.problem;
@@ -38,7 +44,6 @@ int disc_sign(Located& v, int centre, const Radius& radius, Stage last) {
         last);
 }
 
-// Sign of the distance of v from the line ab minus radius.
 int strip_sign(Located& v, int a, int b, const Radius& radius, Stage last) {
     if (known_on_lines(v.candidate, a, b, radius)) return 0;
     const CoverProblem& problem = *v.problem;
@@ -51,13 +56,6 @@ int strip_sign(Located& v, int a, int b, const Radius& radius, Stage last) {
         },
         last);
 }
-
-int line_side(const CoverProblem& problem, const Edge& e, double x, double y) {
-    const Vec<Interval> a = at<Interval>(problem, e.a), b = at<Interval>(problem, e.b);
-    return sign_of(cross(Vec<Interval>(b - a), Vec<Interval>(Vec<Interval>{Interval(x), Interval(y)} - a)));
-}
-
-}  // namespace
 
 int ahead_sign(Located& v, int a, int b, Stage last) {
     if (v.candidate.kind == Candidate::Kind::vertex && v.candidate.vertex == a) return 0;

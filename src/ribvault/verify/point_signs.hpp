@@ -12,6 +12,12 @@ enum class Side { inside, on, outside, unknown };
 /// Where v lies relative to a closed stadium, using stages up to `last`.
 Side side_of_stadium(Located& v, const Stadium& stadium, Stage last);
 
+/// Sign of |v - centre| - radius.
+int disc_sign(Located& v, int centre, const Radius& radius, Stage last);
+
+/// Sign of the distance of v from the line through vertices a and b, minus radius.
+int strip_sign(Located& v, int a, int b, const Radius& radius, Stage last);
+
 /// Orientation of (vertex a, vertex b, v): 1 when v is to the left.
 int orientation_sign(Located& v, int a, int b, Stage last);
 

@@ -145,20 +145,14 @@ void Judge::report_gap(const CentreGap& gap) {
         const auto up = [&](const Rational& a) {
             return a <= 0 ? 0 : std::nextafter(enclose(QuadraticNumber{0, a, uu}, 80)[1].get_d(), HUGE_VAL);
         };
-        const auto bounds = [&](unsigned bits) {
-            const std::array<Rational, 2> from = enclose(gap.from, bits), to = enclose(gap.to, bits);
-            const Rational least = to[0] - from[1], most = to[1] - from[0];
-            return std::array{enclose(quadratic(0, least > 0 ? least : Rational(0), uu), bits)[0],
-                              enclose(quadratic(0, most, uu), bits)[1]};
-        };
-        piece.length = bounds(200);
         piece.from_start = sign(gap.from) == 0;
         piece.to_end = compare(gap.to, QuadraticNumber{1, 0, 0}) == 0;
         // Stretches shorter than their ends' digits need more of these.
-        for (unsigned bits = 64;; bits *= 2) {
+        for (unsigned bits = 256;; bits *= 2) {
             const std::array<Rational, 2> from = enclose(gap.from, bits), to = enclose(gap.to, bits);
             const Rational least = to[0] - from[1], most = to[1] - from[0];
-            if (least <= 0 || (most - least) * 1000000000 > least) continue;
+            if (least <= 0 || most - least > least * power_of_two(-190)) continue;
+            piece.length = {enclose(quadratic(0, least, uu), bits)[0], enclose(quadratic(0, most, uu), bits)[1]};
             piece.from_mm = down(from[0]), piece.to_mm = up(to[1]);
             total[0] = std::nextafter(total[0] + down(least), 0),
             total[1] = std::nextafter(total[1] + up(most), HUGE_VAL);

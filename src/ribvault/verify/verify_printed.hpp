@@ -17,7 +17,7 @@ struct UnsupportedPiece {
     std::size_t track = 0;                    ///< index into upper.tracks
     double from_mm = 0, to_mm = 0;            ///< along the track from a; rounded outward: contains the stretch
     bool from_start = false, to_end = false;  ///< it reaches the track's end a, b (a dot: both). Exact
-    std::array<Rational, 2> length;  ///< mm; bounds of its length, 2^-190 of it apart; equal where it is rational
+    std::array<Rational, 2> length;  ///< mm; bounds of its length, 2^-189 of it apart; equal where it is rational
     double distance_lo = 0, distance_hi = 0;  ///< mm; enclosure of the greatest distance of its points to the
                                               ///< material below (more than ρ); infinite when there is none
     std::array<double, 2> worst{0, 0};        ///< mm; a point of the stretch (rounded) at least distance_lo away
