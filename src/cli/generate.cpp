@@ -19,7 +19,7 @@ struct Written {
     Job job;
     std::string model, gcode, report, svg, mesh, layers, html;
     std::optional<Unit> first_layer_height, support_width, support_radius, erosion_step, straighten_step, branch_bonus,
-        pitch, pillar_length;
+        pitch, pillar_length, leaning_length;
     std::optional<Rational> overlap;
     std::string strategy = "paper", quarter_bonus;
     bool no_shrink = false, no_trim = false, no_doubling = false;
@@ -120,7 +120,11 @@ void add_geometry(CLI::App* command, Written& w) {
         ->needs(lines);
     add_length(supports, "--wall-lines-taller", s.wall_lines_taller, "what is tall (default 10)")->needs(lines);
     supports->add_flag("--pillars", s.pillars,
-                       "trees stand free where that takes less track down to the bed (Section 5.4)");
+                       "trees stand free where that takes less track down to the bed (Section 5.4); thrifty: in "
+                       "cavities they lean towards the shell");
+    add_length(supports, "--leaning-length", w.leaning_length,
+               "track that such a tree keeps (default: five halves of the nozzle)");
+    add_whole(supports, "--leaning-ratio", s.leaning_ratio, "and at least its height over this (default 10)");
     add_length(supports, "--brace", s.brace, "trees that reach farther than this get a second root (default: none do)");
     add_length(supports, "--straighten-step", w.straighten_step, "how far a vertex moves per layer (default: rho)");
     const auto no_bonus =
@@ -230,6 +234,7 @@ void complete(Written& w) {
     s.straighten_step = w.straighten_step.value_or(s.support_radius);
     s.branch_bonus_length = w.branch_bonus.value_or(2 * s.nozzle);
     s.pillar_length = w.pillar_length.value_or(10 * s.nozzle);
+    s.leaning_length = w.leaning_length.value_or(5 * s.nozzle / 2);
     s.sampling_pitch = w.pitch.value_or(s.nozzle / 4);
     s.straighten = !w.no_straighten;
     s.branch_bonus = !w.no_branch_bonus;

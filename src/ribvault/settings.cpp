@@ -39,6 +39,8 @@ void Settings::check() const {
     within(max_gap, 0, 1000000, "--max-gap");
     within(support_gap, 0, 500000, "--support-gap");
     within(pillar_length, nozzle, 10000000, "--pillar-length");
+    within(leaning_length, nozzle, 10000000, "--leaning-length");
+    if (leaning_ratio < 1 || leaning_ratio > 1000) refuse("--leaning-ratio must lie between 1 and 1000");
     within(brace, 0, 100000000, "--brace");
     if (support_gap_layers < 0 || support_gap_layers > 100) refuse("--support-gap-layers must lie between 0 and 100");
     if (support_gap_layers > 0 && support == Support::internal)
@@ -49,6 +51,10 @@ void Settings::check() const {
         refuse("--support-gap keeps external supports off the object; give it with --support external or both");
     if (pillars && brace > 0)
         refuse("--pillars leaves every tree one root and --brace gives long ones two; choose one of them");
+    if (pillars && length_bound)
+        refuse(
+            "--length-bound counts on trees that are rooted on the shell, which --pillars frees; leave one of them "
+            "out");
     if (tries < 1 || tries > 1000) refuse("--tries must lie between 1 and 1000");
     if (perimeters < 1 || perimeters > 100) refuse("--perimeters must lie between 1 and 100");
     if (top_layers < 0 || top_layers > 1000) refuse("--top-layers must lie between 0 and 1000");

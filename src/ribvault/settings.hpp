@@ -68,6 +68,10 @@ struct Settings {
     Unit pillar_length = 400000;
     bool pillars = false;  ///< trees stand free where that takes less track down to the bed, in cavities too
                            ///< (vault/free_trees.hpp)
+    /// A tree that stands free in a cavity and leans (Propagation::shrink; vault/lean_trees.hpp) keeps so much track,
+    /// and no less than its height over the ratio.
+    Unit leaning_length = 100000;
+    int leaning_ratio = 10;
     bool trim = false;  ///< new walls end as early as what they are there for allows (vault/trim_walls.hpp)
 
     Unit erosion_step = 20000;     ///< how much a free tip loses per layer (Section 4.1); at most ρ keeps equation (1)

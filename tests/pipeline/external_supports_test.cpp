@@ -433,8 +433,7 @@ TEST_CASE("pillars in a cavity: a roof of low slope takes less, and is proved wi
         const RunReport pillars = run(slab, settings);
         CHECK(pillars.verdict.proved);
         CHECK(pillars.verdict.print_proved);
-        // Thrifty walls merge on the way down, pillars do not.
-        CHECK(pillars.totals.support_volume_mm3 < (thrifty ? 0.95 : 0.9) * walls.totals.support_volume_mm3);
+        CHECK(pillars.totals.support_volume_mm3 < (thrifty ? 0.7 : 0.9) * walls.totals.support_volume_mm3);
         CHECK(pillars.totals.support_volume_mm3 > 0);
     }
 }

@@ -94,7 +94,7 @@ TEST_CASE("a tree on the shell stands free where the track down to the bed says 
     for (const auto& [layers, stands_free] :
          {std::pair{10, false}, {50, false}, {70, false}, {80, true}, {150, true}, {600, true}, {2500, false}}) {
         SupportForest tree = wall;
-        free_where_cheaper(tree, layers, 20000, 400000);
+        free_where_cheaper(tree, layers, 20000, [n = layers](std::size_t) { return 400000.0 * n; });
         INFO(layers << " layers");
         CHECK(tree[1].free == stands_free);
         CHECK(roots(tree).size() == 1);

@@ -25,11 +25,14 @@ struct Sweep {
     std::size_t tips = 0;
 };
 
-/// Ends of walls that are no root.
+/// Ends of walls that are no root, one fewer in a tree that stands free, one of whose ends takes nothing to close.
 std::size_t tips_of(const SupportForest& forest) {
-    const auto [begin, end] = vertices(forest);
-    return static_cast<std::size_t>(
-        std::count_if(begin, end, [&](std::size_t v) { return out_degree(v, forest) == 1 && !forest[v].root; }));
+    std::size_t tips = 0, free = 0;
+    for (auto [v, end] = vertices(forest); v != end; ++v) {
+        tips += out_degree(*v, forest) == 1 && (!forest[*v].root || forest[*v].free);
+        free += forest[*v].free && out_degree(*v, forest) > 0;
+    }
+    return tips - free;
 }
 
 /// The sweeps with the same seed that have come to the same supports on all layers so far.

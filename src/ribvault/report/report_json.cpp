@@ -56,6 +56,8 @@ Json settings(const Settings& s) {
             {"bed_only", s.bed_only},
             {"pillars", s.pillars},
             {"pillar_length_mm", to_mm(s.pillar_length)},
+            {"leaning_length_mm", to_mm(s.leaning_length)},
+            {"leaning_ratio", s.leaning_ratio},
             {"trim", s.trim},
             {"gaps", s.gaps == Gaps::proved  ? "proved"
                      : s.gaps == Gaps::paper ? "paper"

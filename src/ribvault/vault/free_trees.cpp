@@ -83,13 +83,14 @@ void root_trees(SupportForest& forest) {
     }
 }
 
-void free_where_cheaper(SupportForest& forest, int layers, Unit step, Unit pillar_length) {
+void free_where_cheaper(SupportForest& forest, int layers, Unit step,
+                        const std::function<double(std::size_t)>& track_of_pillar) {
     if (step <= 0) return;
     for (auto [v, end] = vertices(forest); v != end; ++v) {
         if (!forest[*v].root || forest[*v].free || out_degree(*v, forest) == 0) continue;
         const Vertex middle = middle_vertex(*v, forest);
-        const double pillar = static_cast<double>(pillar_length) * layers;
-        if (pillar + track_down(middle, forest, layers, step) >= track_down(*v, forest, layers, step)) continue;
+        if (track_of_pillar(middle) + track_down(middle, forest, layers, step) >= track_down(*v, forest, layers, step))
+            continue;
         forest[*v].root = false;
         forest[middle].root = forest[middle].free = true;
     }

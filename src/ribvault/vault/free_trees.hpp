@@ -1,6 +1,7 @@
 // Trees that stand free: outside, where no shell is near enough or none may be touched, on the layer below alone.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "ribvault/vault/support_forest.hpp"
@@ -22,8 +23,10 @@ void root_trees(SupportForest& forest);
 
 /// Has trees that are rooted on the shell stand free, on the vertex nearest to their middle, where that takes less
 /// track on all `layers` down to the bed: each wall lasts until the tips behind it have run back to it, one `step` a
-/// layer, and `pillar_length` stays to the end. Precondition: every tree has one root.
-void free_where_cheaper(SupportForest& forest, int layers, Unit step, Unit pillar_length);
+/// layer, and what stays of a tree with this middle takes `track_of_pillar(middle)` in all, lattice units.
+/// Precondition: every tree has one root.
+void free_where_cheaper(SupportForest& forest, int layers, Unit step,
+                        const std::function<double(std::size_t)>& track_of_pillar);
 
 /// Moves the root of every free tree to the middle of the tree's longest path, where a new vertex is made if need be
 /// (rounded to the lattice): its tips have the shortest way to it.

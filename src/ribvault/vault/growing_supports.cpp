@@ -110,7 +110,9 @@ double GrowingSupports::longest_wall() const {
     // A wall of length L loses one step a layer: L² / (2 step) in all, less what the bed cuts off.
     const auto layers = static_cast<double>(boundary_.layers_below),
                step = static_cast<double>(std::max<Unit>(settings_.erosion_step, 1));
-    const double pillar = static_cast<double>(settings_.pillar_length);
+    const double pillar = static_cast<double>(pillar_length());
+    // A pillar that leans goes one step a layer to where the wall leads.
+    if (boundary_.leaning) return std::min(2 * pillar, pillar + layers * step / 2);
     return 2 * pillar < layers * step ? std::sqrt(2 * step * pillar * layers) : pillar + layers * step / 2;
 }
 
@@ -159,7 +161,7 @@ std::optional<Point> GrowingSupports::place_inside(Point p) const {
 void GrowingSupports::add_pillar(Point p) {
     const std::size_t centre = add_vertex(SupportVertex{p, true, true}, forest_);
     enter(centre, centre);
-    const Unit arm = settings_.pillar_length / 4;
+    const Unit arm = pillar_length() / 4;
     for (const Point d : {Point{arm, 0}, Point{0, arm}, Point{-arm, 0}, Point{0, -arm}}) {
         const Point end = p + d;
         if (boundary_.location.locate(end) == Side::inside && free_way(end, centre))

@@ -78,6 +78,7 @@ private:
     /// Does an edge of the boundary? `at_root`: the way ends in a root on the shell and may meet the boundary there.
     bool edge_bars(const Segment& way, bool at_root) const;
     bool free_way(Point from, std::size_t to) const;
+    Unit pillar_length() const { return boundary_.leaning ? boundary_.leaning->length : settings_.pillar_length; }
     /// `to` lies on that wall; `own`: the vertex at `from`, if there is one.
     bool free_way(Point from, Point to, std::uint32_t wall, std::size_t own = no_vertex) const;
     double longest_wall() const;                                    ///< that takes less track than a pillar

@@ -1,6 +1,7 @@
 #include "ribvault/vault/moving_supports.hpp"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 
 #include "ribvault/vault/free_trees.hpp"
 #include "ribvault/vault/wall_contacts.hpp"
@@ -26,6 +27,32 @@ void MovingSupports::add_wall(std::size_t a, std::size_t b, std::size_t origin) 
     nodes[a].walls.push_back(id);
     nodes[b].walls.push_back(id);
     grid_.insert(id, segment(walls.back()));
+}
+
+std::size_t MovingSupports::split(std::size_t w, Point at) {
+    const std::size_t a = walls[w].a, b = walls[w].b;
+    for (const std::size_t end : {a, b})
+        if (nodes[end].at == at) return end;
+    const double whole = length(segment(walls[w]));
+    const Segment was = walls[w].was;
+    const Point from = part_way(was.a, was.b, std::min(1.0, length(at - nodes[a].at) / whole));
+    const std::size_t joint = nodes.size();
+    nodes.push_back(
+        {at, false, {from}, {static_cast<std::uint32_t>(w)}, vertex_between(nodes[a].was, nodes[b].was, from)});
+    std::erase(nodes[b].walls, static_cast<std::uint32_t>(w));
+    walls[w].b = joint, walls[w].was.b = from;
+    add_wall(joint, b, walls[w].origin);
+    walls.back().was = {from, was.b};
+    return joint;
+}
+
+std::vector<std::size_t> MovingSupports::trees() const {
+    boost::disjoint_sets_with_storage<> sets(nodes.size());
+    for (const Wall& w : walls)
+        if (w.alive) sets.union_set(w.a, w.b);
+    std::vector<std::size_t> tree(nodes.size());
+    for (std::size_t v = 0; v < tree.size(); ++v) tree[v] = sets.find_set(v);
+    return tree;
 }
 
 bool MovingSupports::reachable(const Node& node, Point p) const {

@@ -55,6 +55,11 @@ struct MovingSupports {
     }
     std::size_t other(std::uint32_t w, std::size_t v) const { return walls[w].a == v ? walls[w].b : walls[w].a; }
     void add_wall(std::size_t a, std::size_t b, std::size_t origin);
+    /// A vertex on a wall, made where there is none; `at` is on it up to rounding. To be called before walls are
+    /// merged.
+    std::size_t split(std::size_t w, Point at);
+    /// By node the number of its tree: that of one of its nodes.
+    std::vector<std::size_t> trees() const;
     /// Calls visit(w) for the walls that come near the box, some of them several times, gone ones too.
     template <class Visit>
     void visit_walls(const Box& box, Visit&& visit) const {

@@ -10,6 +10,7 @@
 #include "ribvault/vault/free_trees.hpp"
 #include "ribvault/vault/grow_supports.hpp"
 #include "ribvault/vault/growing_supports.hpp"
+#include "ribvault/vault/lean_trees.hpp"
 #include "ribvault/vault/shrink_supports.hpp"
 #include "ribvault/vault/straighten_supports.hpp"
 #include "ribvault/vault/wall_stability.hpp"
@@ -73,9 +74,16 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         if (!cavity.outside) boundary.layers_below = std::max(0, cavity.layer - settings.bottom_layers);
         const bool shell_holds_tracks = boundary.rooted && settings.support_radius >= settings.half_width();
         CopiedSupports copied = copy_supports(above, boundary, shell_holds_tracks);
+        if (settings.pillars && !cavity.outside && settings.propagation == Propagation::shrink && boundary.has_shell())
+            boundary.leaning = {settings.leaning_length,
+                                static_cast<double>(settings.layer_height) / settings.leaning_ratio};
         if (boundary.free_trees) root_trees(copied.forest);
-        if (settings.pillars)
-            free_where_cheaper(copied.forest, boundary.layers_below, settings.erosion_step, settings.pillar_length);
+        if (boundary.leaning)
+            lean_where_cheaper(copied.forest, boundary, settings.erosion_step);
+        else if (settings.pillars)
+            free_where_cheaper(copied.forest, boundary.layers_below, settings.erosion_step, [&](std::size_t) {
+                return static_cast<double>(settings.pillar_length) * boundary.layers_below;
+            });
         for (auto [v, end] = vertices(copied.forest); v != end; ++v) ++copied.forest[*v].standing;
         SupportForest propagated;
         const auto note_continued = [&](const std::vector<char>& survives) {

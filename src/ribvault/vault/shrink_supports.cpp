@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "ribvault/vault/cut_trees.hpp"
+#include "ribvault/vault/free_trees.hpp"
+#include "ribvault/vault/lean_trees.hpp"
 #include "ribvault/vault/straight_chains.hpp"
 #include "ribvault/vault/unite_roots.hpp"
 #include "ribvault/vault/wall_contacts.hpp"
@@ -18,12 +20,14 @@ constexpr int sweeps = 10;
 class Shrinker {
 public:
     Shrinker(const SupportForest& forest, const CavityBoundary& boundary, Unit step, Unit pillar_length, Unit braced)
-        : supports_(forest, boundary, step, pillar_length), braced_(braced) {}
+        : supports_(forest, boundary, step, boundary.leaning ? 0 : pillar_length), braced_(braced) {}
 
     ShrunkSupports run() {
         cut_between_roots(supports_, braced_);
+        if (supports_.boundary.leaning) leaning_.emplace(supports_).lead();
         if (braced_ == 0) meetings_.emplace(supports_);
         zip_corners(supports_);
+        if (leaning_) leaning_->measure();
         for (int k = 0; k < sweeps; ++k) {
             bool moved = false;
             for (std::size_t v = 0; v < supports_.nodes.size(); ++v)
@@ -60,6 +64,8 @@ private:
         return (1 / weights) * sum;
     }
 
+    bool may_change(std::size_t v, double by) { return !leaning_ || leaning_->change(v, by); }
+
     double length_at(std::size_t v, Point p, std::size_t merged) const {
         double sum = 0;
         for (const std::uint32_t w : supports_.nodes[v].walls)
@@ -91,9 +97,9 @@ private:
         for (int attempt = 0; attempt < 3 && share > 0; ++attempt, share /= 2) {
             const Point p = rounded(here + share * way);
             if (p == supports_.nodes[v].at) return false;
-            if (!supports_.reachable(supports_.nodes[v], p) || length_at(v, p, MovingSupports::none) >= before ||
-                supports_.collides(v, p, MovingSupports::none))
-                continue;
+            if (!supports_.reachable(supports_.nodes[v], p)) continue;
+            const double longer = length_at(v, p, MovingSupports::none) - before;
+            if (longer >= 0 || supports_.collides(v, p, MovingSupports::none) || !may_change(v, longer)) continue;
             supports_.nodes[v].at = p;
             return true;
         }
@@ -106,8 +112,9 @@ private:
             const std::size_t u = supports_.other(w, v);
             const Point p = supports_.nodes[u].at;
             if (!supports_.reachable(supports_.nodes[v], p)) continue;
-            if (length_at(v, p, u) > length_at(v, supports_.nodes[v].at, MovingSupports::none)) continue;
-            if (supports_.collides(v, p, u) || supports_.runs_over(v, u)) continue;
+            const double longer = length_at(v, p, u) - length_at(v, supports_.nodes[v].at, MovingSupports::none);
+            if (longer > 0 || supports_.collides(v, p, u) || supports_.runs_over(v, u) || !may_change(v, longer))
+                continue;
             supports_.merge(v, u, w);
             return true;
         }
@@ -151,12 +158,14 @@ private:
                 result.survives[origin] = 1;
         for (const auto& [w, stem] : supports_.stems)
             if (is_left(stem)) result.survives[w] = 1;
+        if (leaning_) root_trees(result.forest);
         return result;
     }
 
     MovingSupports supports_;
     Unit braced_;  ///< 0: trees are not
     std::optional<RootMeetings> meetings_;
+    std::optional<LeaningTrees> leaning_;
 };
 
 }  // namespace

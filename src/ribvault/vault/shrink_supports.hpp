@@ -30,7 +30,8 @@ struct ShrunkSupports {
 /// roots that have come to the same place become one, and trees do not become one.
 ///
 /// Roots of trees that stand free stay where they are, and of such a tree that has no more than `pillar_length`
-/// everything does.
+/// everything does. With boundary.leaning they lean instead (vault/lean_trees.hpp), and every tree, of which each must
+/// have one root, is left one.
 ShrunkSupports shrink_supports(const SupportForest& forest, const CavityBoundary& boundary, Unit step,
                                Unit pillar_length = 0, Unit braced = 0);
 

@@ -1,7 +1,6 @@
 #include "ribvault/vault/unite_roots.hpp"
 
 #include <algorithm>
-#include <boost/pending/disjoint_sets.hpp>
 
 #include "ribvault/vault/root_pairs.hpp"
 
@@ -25,7 +24,7 @@ RootMeetings::RootMeetings(MovingSupports& supports)
 void RootMeetings::pair_roots() {
     std::vector<TreeRoot> roots;
     std::vector<std::size_t> node;
-    const std::vector<std::size_t> tree = trees();
+    const std::vector<std::size_t> tree = supports_.trees();
     for (std::size_t v = 0; v < supports_.nodes.size(); ++v) {
         const MovingSupports::Node& n = supports_.nodes[v];
         partner_[v] = MovingSupports::none;
@@ -46,15 +45,6 @@ Vec RootMeetings::away_from(std::size_t v) const {
         sum = sum + (1 / std::max(norm(d), 1.0)) * d;
     }
     return sum;
-}
-
-std::vector<std::size_t> RootMeetings::trees() const {
-    boost::disjoint_sets_with_storage<> sets(supports_.nodes.size());
-    for (const MovingSupports::Wall& w : supports_.walls)
-        if (w.alive) sets.union_set(w.a, w.b);
-    std::vector<std::size_t> tree(supports_.nodes.size());
-    for (std::size_t v = 0; v < tree.size(); ++v) tree[v] = sets.find_set(v);
-    return tree;
 }
 
 double RootMeetings::trunk_of(std::size_t root) const {

@@ -25,8 +25,6 @@ private:
     void pair_roots();
     /// Where the walls of a vertex lead, as the sum of unit vectors.
     Vec away_from(std::size_t v) const;
-    /// For every vertex one of its tree, the same for all of it.
-    std::vector<std::size_t> trees() const;
     /// The longest way from a root to the first junction or the tip.
     double trunk_of(std::size_t root) const;
     double trunk_of(std::size_t v, std::uint32_t w) const;

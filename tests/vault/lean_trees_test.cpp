@@ -1,0 +1,151 @@
+// Trees that stand free in a cavity lean: to the shell, on which they are rooted then, or to each other; by no more
+// than a step a layer, and with the track that they must keep.
+#include "ribvault/vault/lean_trees.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "grown_scene.hpp"
+#include "ribvault/vault/free_trees.hpp"
+#include "ribvault/vault/next_layer.hpp"
+#include "ribvault/vault/shrink_supports.hpp"
+#include "within.hpp"
+
+using namespace ribvault;
+using namespace ribvault::test;
+
+namespace {
+
+constexpr Unit step = 20000;
+
+/// A room of 20 mm x 20 mm in which trees lean.
+CavityBoundary room(const Leaning& leaning) {
+    CavityBoundary boundary = prepare_boundary({rectangle(0, 0, 2000000, 2000000)});
+    boundary.free_trees = true, boundary.layers_below = 1000, boundary.leaning = leaning;
+    return boundary;
+}
+
+SupportForest standing_free(SupportForest forest) {
+    root_trees(forest);
+    return forest;
+}
+
+std::size_t free_roots(const SupportForest& forest) {
+    const auto [begin, end] = vertices(forest);
+    return static_cast<std::size_t>(std::count_if(begin, end, [&](std::size_t v) { return forest[v].free; }));
+}
+
+/// What must hold from one layer to the next; the supports of the next.
+SupportForest next(const SupportForest& forest, const CavityBoundary& boundary) {
+    const ShrunkSupports shrunk = shrink_supports(forest, boundary, step);
+    const NearestSegment left(centre_lines(shrunk.forest));
+    for (const Segment& s : centre_lines(forest)) {
+        INFO(text(s));
+        REQUIRE(within(s, left, step));
+    }
+    REQUIRE(forest_fault(shrunk.forest) == "");
+    REQUIRE(crossings(shrunk.forest).count == 0);
+    SupportForest below = shrunk.forest;
+    for (auto [v, end] = vertices(below); v != end; ++v) ++below[*v].standing;
+    return below;
+}
+
+}  // namespace
+
+TEST_CASE("a short wall that stands free goes a step a layer to the shell and runs back into it") {
+    const CavityBoundary boundary = room({100000, 0});
+    SupportForest wall = standing_free(forest_of({{{500000, 900000}, {500000, 1000000}}, {}, {{0, 1}}}));
+    REQUIRE(free_roots(wall) == 1);
+    int layers = 0;
+    for (; free_roots(wall) > 0; ++layers) {
+        REQUIRE(layers < 30);
+        wall = next(wall, boundary);
+        if (free_roots(wall) > 0) CHECK(length(wall) >= 100000);
+        CHECK(length(wall) < 100000 + 2 * step);
+    }
+    CHECK(layers >= 25);  // 5 mm
+    REQUIRE(num_edges(wall) >= 1);
+    for (auto [v, end] = vertices(wall); v != end; ++v)
+        if (wall[*v].root) CHECK(wall[*v].at.x <= 0);
+    for (int k = 0; k < 10 && num_edges(wall) > 0; ++k) wall = next(wall, boundary);
+    CHECK(num_edges(wall) == 0);
+}
+
+TEST_CASE("a long wall that stands free shrinks from both ends before it goes anywhere") {
+    SupportForest wall = standing_free(forest_of({{{500000, 500000}, {500000, 1500000}}, {}, {{0, 1}}}));
+    const double before = length(wall);
+    wall = next(wall, room({100000, 0}));
+    CHECK(length(wall) == Approx(before - 2 * step).margin(10));
+    for (auto [v, end] = vertices(wall); v != end; ++v) CHECK(wall[*v].at.x == 500000);
+}
+
+TEST_CASE("two trees that are nearer to each other than to the shell become one") {
+    const CavityBoundary boundary = room({100000, 0});
+    SupportForest pair = standing_free(forest_of(
+        {{{900000, 950000}, {900000, 1050000}, {1100000, 950000}, {1100000, 1050000}}, {}, {{0, 1}, {2, 3}}}));
+    REQUIRE(component_count(pair) == 2);
+    int layers = 0;
+    for (; component_count(pair) == 2; ++layers) {
+        REQUIRE(layers < 10);
+        pair = next(pair, boundary);
+    }
+    CHECK(layers >= 5);  // 2 mm, from both sides
+    CHECK(free_roots(pair) == 1);
+    for (int k = 0; k < 20; ++k) pair = next(pair, boundary);
+    CHECK(length(pair) < 100000 + 2 * step);
+    CHECK(length(pair) >= 100000);
+}
+
+TEST_CASE("a tree joins one that is rooted on the shell") {
+    const CavityBoundary boundary = room({100000, 0});
+    SupportForest forest =
+        forest_of({{{0, 1000000}, {1500000, 1000000}, {700000, 1050000}, {700000, 1150000}}, {0}, {{0, 1}, {2, 3}}});
+    root_trees(forest);
+    REQUIRE(free_roots(forest) == 1);
+    for (int k = 0; k < 3; ++k) forest = next(forest, boundary);
+    CHECK(component_count(forest) == 1);
+    CHECK(free_roots(forest) == 0);
+}
+
+TEST_CASE("the higher a leaning tree stands, the more track it has") {
+    const CavityBoundary boundary = room({100000, 5000});
+    SupportForest wall = standing_free(forest_of({{{1000000, 950000}, {1000000, 1050000}}, {}, {{0, 1}}}));
+    for (int layer = 1; layer <= 40; ++layer) {
+        wall = next(wall, boundary);
+        INFO("layer " << layer);
+        CHECK(length(wall) >= std::max(100000.0, 5000.0 * layer));
+        CHECK(length(wall) < std::max(100000.0, 5000.0 * layer) + 2 * step);
+    }
+}
+
+TEST_CASE("a wall leaves the shell where it takes less track until it is there again") {
+    // One of length L takes L² / 2 step; from its middle L² / 4 step, and 1 mm for three quarters of L / step layers.
+    for (const Unit whole : {200000, 280000, 320000, 1500000}) {
+        SupportForest wall = forest_of({{{0, 1000000}, {whole / 2, 1000000}, {whole, 1000000}}, {0}, {{0, 1}, {1, 2}}});
+        lean_where_cheaper(wall, room({100000, 0}), step);
+        INFO(whole);
+        CHECK(wall[1].free == (whole > 300000));
+        CHECK(wall[0].root == (whole < 300000));
+    }
+}
+
+TEST_CASE("grown supports that lean move by no more than a step, stay planar and vanish") {
+    Random g(1221);
+    int layers = 0, leant = 0, vanished = 0;
+    for (int k = 0; k < 12; ++k) {
+        GrownScene scene(g);
+        scene.boundary.free_trees = true, scene.boundary.layers_below = 400;
+        scene.boundary.leaning = {pick(g, 1, 3) * 20000, static_cast<double>(pick(g, 0, 1) * 2000)};
+        SupportForest forest = scene.forest;
+        for (int layer = 0; layer < 60 && num_edges(forest) > 0; ++layer, ++layers) {
+            INFO("scene " << k << ", layer " << layer);
+            root_trees(forest);
+            lean_where_cheaper(forest, scene.boundary, step);
+            leant += free_roots(forest) > 0;
+            forest = next(forest, scene.boundary);
+        }
+        vanished += num_edges(forest) == 0;
+    }
+    CHECK(layers > 100);
+    CHECK(leant > 50);
+    CHECK(vanished > 8);
+}
