@@ -12,6 +12,7 @@ MESHES = ["bunny00", "elephant", "armadillo", "bear", "camel", "fandisk", "knot"
 PEER_MM3 = {"cube": 217, "bunny": 1117, "moai": 773, "kitten": 601}  # CuraEngine 4.13, lightning fill, not all of it supported
 INGREDIENTS = {"all": (), "no shrink": ("--no-shrink",), "no trim": ("--no-trim",), "no doubling": ("--no-doubling",), "whole bonus": ("--quarter-bonus", "nowhere"), "quarter in narrow places": ("--quarter-bonus", "narrow"), "quarter everywhere": ("--quarter-bonus", "everywhere")}
 MM3_PER_MM = 0.4 * 0.2  # of track
+LEANING = ["1", "0.4"]  # mm of track that a leaning tree keeps at least
 WIDTHS = ["0.4", "0.36", "0.32", "0.28", "0.24", "0.2"]  # mm, of the supports' tracks
 
 
@@ -40,6 +41,32 @@ def widths_table(lab):
     return table
 
 
+def leaning_table(lab, models):
+    """Trees that lean: what they save, and at what cost in time and steadiness."""
+    each = [("thrifty", ()), *((f"leaning, {mm} mm", ("--pillars", "--leaning-length", mm)) for mm in LEANING)]
+    table = Table("leaning", "Thrifty, with trees that lean (--pillars --leaning-length), one cover, seed 1, print proved",
+                  [("model", ""), *((f"supports mm³: {of}", ".0f") for of, _ in each), ("least/paper's", ".2f"), ("CuraEngine's lightning", "d"),
+                   *((f"minutes: {of}", ".1f") for of, _ in each), *((f"travels: {of}", "d") for of, _ in each), *((f"slenderness: {of}", ".0f") for of, _ in each), ("proved", ""), ("what", "")],
+                  note="Minutes without a least time per layer. The paper's: its strategy, as in the table above.")
+    ratios = []
+    for name, model in models:
+        if not model.file:
+            table.add(model.title, *[None] * (len(table.columns) - 2), "the file is missing (--models)")
+            continue
+        runs = [Run("generate", model, (*ONE_COVER, "--strategy", "thrifty", "--min-layer-time", "0", *options)) for _, options in each]
+        paper = lab.value(Run("generate", model, (*ONE_COVER, "--gaps", "proved")), "totals.support_volume_mm3")
+        volumes, seconds, travels, slender = ([lab.value(r, f"totals.{of}") for r in runs] for of in ("support_volume_mm3", "print_seconds", "travels", "slenderness"))
+        ratio = min(volumes) / paper if paper and None not in volumes else None
+        if ratio:
+            ratios.append(ratio)
+        table.add(model.title, *volumes, ratio, PEER_MM3.get(name), *(None if s is None else s / 60 for s in seconds), *travels, *slender,
+                  all(is_proved(lab, r) for r in runs), next(filter(None, map(lab.why, runs)), model.origin))
+    if ratios:
+        mean = math.exp(sum(map(math.log, ratios)) / len(ratios))
+        table.add("geometric mean", *[None] * len(each), mean, *[None] * (len(table.columns) - len(each) - 3), f"largest {max(ratios):.2f}")
+    return table
+
+
 def build(lab):
     models = [lab.registry[n] for n in PAPERS]
     models += [dataclasses.replace(lab.registry[n], placement=("--height", "50")) for n in MESHES]
@@ -48,7 +75,7 @@ def build(lab):
                    ("thrifty/paper's", ".2f"), ("lower bound", ".0f"), ("slenderness: paper's", ".0f"), ("slenderness: thrifty", ".0f"),
                    ("CuraEngine's lightning", "d"), ("CPU s: paper's", ".2f"), ("CPU s: thrifty", ".2f"), ("proved", ""), ("what", "")])
     totals = Table("thrifty_totals", "Total material in mm³ under Table 2's settings (no covers; the cube with one), print proved",
-                   [("model", ""), ("Table 2: ours", ".0f"), ("Table 2: iterative carving", ".0f"), ("paper's strategy", ".0f"), ("thrifty", ".0f"), ("proved", ""), ("what", "")])
+                   [("model", ""), ("Table 2: ours", ".0f"), ("Table 2: iterative carving", ".0f"), ("paper's strategy", ".0f"), ("thrifty", ".0f"), ("thrifty, leaning, 0.4 mm", ".0f"), ("proved", ""), ("what", "")])
     ratios = []
     for name, model in zip(PAPERS + MESHES, models):
         if not model.file:
@@ -72,7 +99,7 @@ def build(lab):
         if model is None or not real:
             continue
         cover = ONE_COVER if model.name == "cube" else NO_COVER
-        pair = [Run("generate", model, (*cover, *o)) for o in (("--gaps", "proved"), ("--strategy", "thrifty"))]
-        proved = [is_proved(lab, r) for r in pair]
-        totals.add(model.title, float(row["ours_mm3"]), float(row["iterative_carving_mm3"]), *(lab.value(r, "totals.material_mm3") for r in pair), all(proved), model.origin)
-    return [table, totals, widths_table(lab)]
+        runs = [Run("generate", model, (*cover, *o)) for o in (("--gaps", "proved"), ("--strategy", "thrifty"), ("--strategy", "thrifty", "--pillars", "--leaning-length", "0.4"))]
+        proved = [is_proved(lab, r) for r in runs]
+        totals.add(model.title, float(row["ours_mm3"]), float(row["iterative_carving_mm3"]), *(lab.value(r, "totals.material_mm3") for r in runs), all(proved), model.origin)
+    return [table, totals, leaning_table(lab, list(zip(PAPERS + MESHES, models))), widths_table(lab)]

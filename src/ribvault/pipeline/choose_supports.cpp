@@ -25,7 +25,7 @@ struct Sweep {
     std::size_t tips = 0;
 };
 
-/// Ends of walls that are no root, one fewer in a tree that stands free, one of whose ends takes nothing to close.
+/// Ends of walls that are no root; of a tree that stands free all but one, for it has one path fewer.
 std::size_t tips_of(const SupportForest& forest) {
     std::size_t tips = 0, free = 0;
     for (auto [v, end] = vertices(forest); v != end; ++v) {

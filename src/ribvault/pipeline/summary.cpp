@@ -196,10 +196,10 @@ std::string summary(const RunReport& r, const Job& job) {
                          r.totals.external_support_printed_length_mm);
     append_formatted(text, "; %.2f m of filament, %.1f mm3\n", r.totals.filament_mm / 1000, r.totals.extruded_mm3);
     if (r.settings.length_bound)
-        append_formatted(
-            text,
-            "bound     whatever the method, internal supports need at least %.0f mm of track; here they have %.0f mm\n",
-            r.totals.support_length_bound_mm, r.totals.support_length_mm);
+        append_formatted(text,
+                         "bound     whatever the method, supports rooted on the shell take %.0f mm of track or more; "
+                         "here they take %.0f\n",
+                         r.totals.support_length_bound_mm, r.totals.support_length_mm);
     append_formatted(text, "print     about %.0f min; %s, %.1f m, %s\n", r.totals.print_seconds / 60,
                      many(r.totals.travels, "travel").c_str(), r.totals.travel_mm / 1000,
                      many(r.totals.retractions, "retraction").c_str());

@@ -45,7 +45,8 @@ struct SweptLayer {
     LayerMaterial material;
     SupportForest forest;  ///< S_i, SupportEdge::first_layer set
     Region unsupported;    ///< what of layer i + 1 the walls copied from above and the shell did not hold up
-    double length_bound = 0;  ///< no supports here could be shorter, lattice units; 0 unless settings.length_bound
+    /// No supports rooted on the shell could be shorter, lattice units; 0 unless settings.length_bound.
+    double length_bound = 0;
     int blocked = 0;       ///< chains that could not be straightened without crossing a wall
     int braces = 0;        ///< walls that give a long tree its second root
     HeldLayer held;        ///< what is printed

@@ -133,7 +133,7 @@ struct Candidate {
     QuarterBonus quarter_bonus = QuarterBonus::nowhere;
     std::uint64_t seed = 1;
     double length_mm = 0;  ///< of all tracks
-    std::size_t tips = 0;  ///< ends of walls that are no root
+    std::size_t tips = 0;  ///< ends of walls that are no root, of a tree that stands free all but one
     double cost_mm = 0;    ///< what is compared (pipeline/choose_supports.hpp)
 };
 
