@@ -106,6 +106,101 @@ TEST_CASE("a tree joins one that is rooted on the shell") {
     CHECK(free_roots(forest) == 0);
 }
 
+TEST_CASE("tips that face each other within a step become one, once") {
+    SupportForest line = standing_free(forest_of(
+        {{{900000, 1000000}, {990000, 1000000}, {1000000, 1000000}, {1090000, 1000000}}, {}, {{0, 1}, {2, 3}}}));
+    const SupportForest joined = next(line, room({100000, 0}));
+    CHECK(component_count(joined) == 1);
+    CHECK(num_edges(joined) >= 1);
+    CHECK(length(joined) > 100000);
+}
+
+TEST_CASE("a tree that would lie on another, or cross a third, stays where it is") {
+    const CavityBoundary boundary = room({200000, 0});
+    // The head is a tenth of a millimetre from the other wall, in whose line its own wall would come to lie.
+    SupportForest over =
+        forest_of({{{950000, 1010000}, {1100000, 1000000}, {0, 1000000}, {1000000, 1000000}}, {2}, {{0, 1}, {2, 3}}});
+    root_trees(over);
+    CHECK(component_count(next(over, boundary)) == 2);
+    // The third one's tip is between where the wall is and where it would be, once its head has joined or come nearer.
+    for (const Unit below : {15000, 90000}) {
+        SupportForest three = forest_of({{{900000, 1000000},
+                                          {1100000, 1000000},
+                                          {1000000, 995000},
+                                          {1000000, 0},
+                                          {0, 1000000 - below},
+                                          {950000, 1000000 - below}},
+                                         {3, 4},
+                                         {{0, 1}, {2, 3}, {4, 5}}});
+        root_trees(three);
+        REQUIRE(free_roots(three) == 1);
+        MovingSupports supports(three, boundary, step, 0);
+        LeaningTrees(supports).lead();
+        INFO(below);
+        CHECK_FALSE(segments_touch(supports.segment(supports.walls[0]), supports.segment(supports.walls[1])));
+        CHECK((supports.nodes[0].at == Point{900000, 1000000}) == (below == 15000));
+        CHECK_FALSE(supports.nodes[0].gone);
+    }
+}
+
+TEST_CASE("a tree that comes near the shell, or another tree, does not go through it") {
+    const CavityBoundary boundary = room({200000, 0});
+    for (const Unit away : {step - 3, step - 1}) {
+        const SupportForest wall = standing_free(forest_of({{{away, 1000000}, {100000, 1000000}}, {}, {{0, 1}}}));
+        MovingSupports supports(wall, boundary, step, 0);
+        LeaningTrees(supports).lead();
+        INFO(away);
+        CHECK(supports.nodes[0].at.x > 0);
+        CHECK(supports.nodes[0].at.x < 10);
+        CHECK_FALSE(supports.nodes[0].root);
+    }
+}
+
+TEST_CASE("two trees become one at one end only") {
+    const SupportForest side_by_side = standing_free(forest_of({{{919000, 1003000},
+                                                                 {950000, 985000},
+                                                                 {985000, 1002000},
+                                                                 {900000, 1010000},
+                                                                 {950000, 1010000},
+                                                                 {1000000, 1010000}},
+                                                                {},
+                                                                {{0, 1}, {1, 2}, {3, 4}, {4, 5}}}));
+    CHECK(component_count(next(side_by_side, room({200000, 0}))) == 1);
+}
+
+TEST_CASE("a dot that stands free goes to the shell too") {
+    const CavityBoundary boundary = room({100000, 0});
+    SupportForest dot = standing_free(forest_of({{{50000, 1000000}}, {}, {}}));
+    for (int layer = 0; layer < 3; ++layer) {
+        REQUIRE(free_roots(dot) == 1);
+        dot = next(dot, boundary);
+        REQUIRE(num_vertices(dot) == 1);
+    }
+    CHECK(free_roots(dot) == 0);
+    CHECK(dot[0].at.x <= 0);
+}
+
+TEST_CASE("a wall of which one end has moved is split where it is, and what was there is known") {
+    SupportForest wall = forest_of({{{0, 0}, {100000, 0}}, {0}, {{0, 1}}});
+    wall[1].standing = 10;
+    const CavityBoundary boundary = room({100000, 0});
+    MovingSupports supports(wall, boundary, step, 0);
+    supports.nodes[1].at = {100000, 10000};
+    CHECK(supports.split(0, {100000, 10000}) == 1);
+    const std::size_t joint = supports.split(0, {50000, 5000});
+    REQUIRE(joint == 2);
+    CHECK(supports.nodes[joint].at == Point{50000, 5000});
+    CHECK(supports.nodes[joint].from == std::vector<Point>{{50000, 0}});
+    CHECK(supports.nodes[joint].walls == std::vector<std::uint32_t>{0, 1});
+    CHECK(supports.nodes[0].walls == std::vector<std::uint32_t>{0});
+    CHECK(supports.nodes[1].walls == std::vector<std::uint32_t>{1});
+    CHECK(supports.walls[0].was.b == Point{50000, 0});
+    CHECK(supports.walls[1].was.a == Point{50000, 0});
+    CHECK(supports.walls[1].was.b == Point{100000, 0});
+    CHECK(supports.walls[1].origin == 0);
+    CHECK(supports.trees() == std::vector<std::size_t>(3, supports.trees()[0]));
+}
+
 TEST_CASE("the higher a leaning tree stands, the more track it has") {
     const CavityBoundary boundary = room({100000, 5000});
     SupportForest wall = standing_free(forest_of({{{1000000, 950000}, {1000000, 1050000}}, {}, {{0, 1}}}));

@@ -96,8 +96,7 @@ void LeaningTrees::approach(const Target& target) {
     MovingSupports::Node& head = supports_.nodes[target.head];
     const auto step = static_cast<double>(supports_.step);
     const Vec here = vec(head.at), way = vec(target.at) - here;
-    // The other tree may come towards this one: they do not pass each other, and meet on the layer below.
-    for (double by = std::min(step - 2, target.distance / 2); by > step / 8; by /= 2) {
+    for (double by = std::min(step - 2, target.distance - 4); by > step / 8; by /= 2) {
         const Point p = rounded(here + (by / norm(way)) * way);
         if (!supports_.reachable(head, p) || supports_.collides(target.head, p, none)) continue;
         head.at = p, head.stays = true;
@@ -113,7 +112,6 @@ void LeaningTrees::root_on_shell(const Target& target) {
 }
 
 bool LeaningTrees::join_wall(const Target& target) {
-    if (!supports_.reachable(supports_.nodes[target.head], target.at)) return false;
     const std::size_t joint = supports_.split(target.wall, target.at);
     if (joint == tree_.size()) {
         const std::size_t beside = supports_.walls[target.wall].a;
