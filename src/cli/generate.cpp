@@ -23,6 +23,7 @@ struct Written {
     std::optional<Rational> overlap;
     std::string strategy = "paper", quarter_bonus;
     bool no_shrink = false, no_trim = false, no_doubling = false;
+    bool leaning_ratio = false;  ///< given
     bool no_straighten = false, no_branch_bonus = false, quiet = false;
     std::string rotate, up = "z";
     Imported imported;
@@ -47,6 +48,9 @@ void choose_strategy(const Written& w, Settings& s) {
     needs_thrifty(w.no_trim, "--no-trim");
     needs_thrifty(w.no_doubling, "--no-doubling");
     const bool shrink = thrifty && !w.no_shrink;
+    if (!shrink && (w.leaning_length || w.leaning_ratio))
+        throw Error(ErrorKind::usage, std::string(w.leaning_length ? "--leaning-length" : "--leaning-ratio") +
+                                          ": trees lean with --strategy thrifty only, not with --no-shrink");
     if (shrink && (w.no_straighten || w.straighten_step))
         throw Error(ErrorKind::usage, std::string(w.no_straighten ? "--no-straighten" : "--straighten-step") +
                                           ": --strategy thrifty does not straighten; give --no-shrink as well");
@@ -85,7 +89,7 @@ void add_geometry(CLI::App* command, Written& w) {
               "leave so many layers empty between them and what they hold up (default 0)");
     outside->add_flag("--bed-only", s.bed_only, "external supports stand on the bed, nowhere on the object");
     add_length(outside, "--pillar-length", w.pillar_length,
-               "track on every layer of a tree that stands free (default: ten times the nozzle)");
+               "track on every layer of a tree that stands free and does not lean (default: ten times the nozzle)");
     const auto supports = command->add_option_group("Supports (Sections 4.1 to 4.3)");
     const auto radius = supports->add_option_function<std::string>(
         "--support-radius", [&w](const std::string& t) { w.support_radius = parse_length(t, "--support-radius"); },
@@ -119,12 +123,17 @@ void add_geometry(CLI::App* command, Written& w) {
                "what is long, from the root to the farthest tip (default 10)")
         ->needs(lines);
     add_length(supports, "--wall-lines-taller", s.wall_lines_taller, "what is tall (default 10)")->needs(lines);
-    supports->add_flag("--pillars", s.pillars,
-                       "trees stand free where that takes less track down to the bed (Section 5.4); thrifty: in "
-                       "cavities they lean towards the shell");
+    const auto pillars =
+        supports->add_flag("--pillars", s.pillars,
+                           "trees stand free where that takes less track down to the bed (Section 5.4); thrifty: in "
+                           "cavities they lean towards the shell");
     add_length(supports, "--leaning-length", w.leaning_length,
-               "track that such a tree keeps (default: five halves of the nozzle)");
-    add_whole(supports, "--leaning-ratio", s.leaning_ratio, "and at least its height over this (default 10)");
+               "track to which such a tree shrinks (default: five halves of the nozzle)")
+        ->needs(pillars);
+    add_whole(supports, "--leaning-ratio", s.leaning_ratio,
+              "or to its height over this, where that is more (default 10)")
+        ->needs(pillars)
+        ->each([&w](const std::string&) { w.leaning_ratio = true; });
     add_length(supports, "--brace", s.brace, "trees that reach farther than this get a second root (default: none do)");
     add_length(supports, "--straighten-step", w.straighten_step, "how far a vertex moves per layer (default: rho)");
     const auto no_bonus =

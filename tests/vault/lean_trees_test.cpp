@@ -213,13 +213,14 @@ TEST_CASE("the higher a leaning tree stands, the more track it has") {
 }
 
 TEST_CASE("a wall leaves the shell where it takes less track until it is there again") {
-    // One of length L takes L² / 2 step; from its middle L² / 4 step, and 1 mm for three quarters of L / step layers.
-    for (const Unit whole : {200000, 280000, 320000, 1500000}) {
+    // One of length L takes L² / 2 step; from its middle L² / 4 step, 1 mm for three quarters of L / step layers, and
+    // 1 mm² / 2 step to run back: less from (3 + √17) / 2 mm on.
+    for (const Unit whole : {200000, 350000, 362000, 1500000}) {
         SupportForest wall = forest_of({{{0, 1000000}, {whole / 2, 1000000}, {whole, 1000000}}, {0}, {{0, 1}, {1, 2}}});
         lean_where_cheaper(wall, room({100000, 0}), step);
         INFO(whole);
-        CHECK(wall[1].free == (whole > 300000));
-        CHECK(wall[0].root == (whole < 300000));
+        CHECK(wall[1].free == (whole > 356155));
+        CHECK(wall[0].root == (whole < 356155));
     }
 }
 

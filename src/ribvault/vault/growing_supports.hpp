@@ -25,8 +25,8 @@ public:
     /// Precondition: p lies strictly inside the cavity. Postcondition: covers(p, 0) up to rounding.
     ///
     /// Where trees may stand free and a wall would take more track down to the bed than a pillar does, p gets a pillar:
-    /// a cross of settings.pillar_length. Outside p may also lie between the object and the region that a removal gap
-    /// leaves: the wall goes to the point of the region nearest to it.
+    /// a cross of as much track as a pillar keeps at first. Outside p may also lie between the object and the region
+    /// that a removal gap leaves: the wall goes to the point of the region nearest to it.
     void add_wall(Point p, Unit bonus);
 
     /// Mends the free tree with this root if where walls may run has cut it to less than half a pillar: it joins the

@@ -18,7 +18,10 @@ void lean_where_cheaper(SupportForest& forest, const CavityBoundary& boundary, U
     free_where_cheaper(forest, boundary.layers_below, step, [&](std::size_t middle) {
         const double way = farther * std::sqrt(boundary.edges.nearest(forest[middle].at).distance.value());
         const double layers = std::min(way / static_cast<double>(step), static_cast<double>(boundary.layers_below));
-        return layers * boundary.leaning->track(forest[middle].standing + layers / 2);
+        // On its way there, and running back once it is rooted.
+        const double foot = boundary.leaning->track(forest[middle].standing + layers);
+        const double back = std::min(foot / (2 * static_cast<double>(step)), boundary.layers_below - layers);
+        return layers * boundary.leaning->track(forest[middle].standing + layers / 2) + back * foot;
     });
 }
 
@@ -46,12 +49,12 @@ void LeaningTrees::lead() {
     for (const Tree& tree : all)
         for (const std::size_t v : tree.nodes) {
             MovingSupports::Node& node = supports_.nodes[v];
-            was_free_[v] = tree.free && !tree.rooted;
+            was_free_[v] = tree.free;
             // A dot keeps its root: nothing else tells of it.
             if (node.free && !node.walls.empty()) node.root = node.free = false;
         }
     for (const Tree& tree : all) {
-        if (!tree.free || tree.rooted || tree.joined ||
+        if (!tree.free || tree.joined ||
             tree.track > leaning_.track(tree.standing) + static_cast<double>(supports_.step))
             continue;
         const Target target = nearest_target(tree);
@@ -132,7 +135,7 @@ void LeaningTrees::measure() {
         if (was_free_[v]) free[tree_[v]] = 1;
     for (std::size_t t = 0; t < all.size(); ++t) {
         track_.push_back(all[t].track);
-        least_.push_back(free[t] && !all[t].rooted ? leaning_.track(all[t].standing) : 0);
+        least_.push_back(free[t] && !all[t].rooted ? leaning_.track(all[t].standing) : -HUGE_VAL);
     }
 }
 

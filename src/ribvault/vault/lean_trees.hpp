@@ -12,12 +12,13 @@ namespace ribvault {
 /// again (free_where_cheaper). Preconditions: every tree has one root; boundary.leaning.
 void lean_where_cheaper(SupportForest& forest, const CavityBoundary& boundary, Unit step);
 
-/// Of what moves together from one layer to the next, the trees that stand free. One that has more track than it must
-/// keep (Leaning::track) shrinks from all its tips. Any other goes, one step a layer, to what is nearest to it: the
-/// shell, on which it is rooted once it is there, or another tree, which it then is a part of.
+/// Of what moves together from one layer to the next, the trees that stand free. One that has more track than it is to
+/// keep (Leaning::track) shrinks from all its tips, no further than to that (zipping up a narrow corner may take a
+/// little more). Any other goes, one step a layer, to what is nearest to it: the shell, on which it is rooted once it
+/// is there, or another tree, which it then is a part of.
 class LeaningTrees {
 public:
-    /// Both must outlive this. Precondition: supports.boundary.leaning.
+    /// `supports` must outlive this. Preconditions: supports.boundary.leaning; every tree has one root.
     explicit LeaningTrees(MovingSupports& supports);
 
     /// Leads every tree that is short enough one step on. To be called once, before anything has moved. A tree that
@@ -25,7 +26,8 @@ public:
     void lead();
     /// To be called when the trees have been led and no walls will be added: what they are now is what `change` counts.
     void measure();
-    /// May the walls of v's tree become longer by this, lattice units, in all? If it may, it counts as done.
+    /// May the walls of v's tree become longer by this, lattice units, in all? Those of a tree with a root may. If they
+    /// may, it counts as done.
     bool change(std::size_t v, double by);
 
 private:
@@ -35,7 +37,7 @@ private:
         std::vector<std::size_t> nodes;
         double track = 0;
         int standing = 0;
-        bool free = false, rooted = false;
+        bool free = false, rooted = false;  ///< before and after it was led
         bool joined = false;  ///< by another one
     };
     struct Target {

@@ -28,7 +28,7 @@ struct MovingSupports {
         SupportVertex was;  ///< for what else is known of it
         bool gone = false;
         bool free = false;   ///< a root away from the shell
-        bool stays = false;  ///< of a free tree with no more track than a pillar
+        bool stays = false;  ///< of a free tree with no more track than a pillar, or led to its place on this layer
     };
     /// Where a vertex was, as Node::from, and what stands there.
     struct Passed {

@@ -74,7 +74,8 @@ LayerSupports next_layer(SupportForest& above, const Cavity& cavity, const Regio
         if (!cavity.outside) boundary.layers_below = std::max(0, cavity.layer - settings.bottom_layers);
         const bool shell_holds_tracks = boundary.rooted && settings.support_radius >= settings.half_width();
         CopiedSupports copied = copy_supports(above, boundary, shell_holds_tracks);
-        if (settings.pillars && !cavity.outside && settings.propagation == Propagation::shrink && boundary.has_shell())
+        if (settings.pillars && !cavity.outside && settings.propagation == Propagation::shrink &&
+            settings.erosion_step > 0 && boundary.has_shell())
             boundary.leaning = {settings.leaning_length,
                                 static_cast<double>(settings.layer_height) / settings.leaning_ratio};
         if (boundary.free_trees) root_trees(copied.forest);

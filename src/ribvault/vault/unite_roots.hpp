@@ -12,7 +12,7 @@ namespace ribvault {
 class RootMeetings {
 public:
     /// `supports` must outlive this. Roots that can be at the same place become one, others are paired. Call it before
-    /// anything else has moved but what was cut.
+    /// anything else has moved but what was cut or led (vault/lean_trees.hpp).
     explicit RootMeetings(MovingSupports& supports);
 
     /// Is the root in v to go towards another?
