@@ -12,7 +12,7 @@ def build(lab):
     table = Table("pillars", "Pillars where walls waste (Section 5.4, Figure 25), seed 1",
                   [("model", ""), ("strategy", ""), ("walls only: supports mm³", ".0f"), ("with pillars: supports mm³", ".0f"), ("saved %", ".0f"),
                    ("slenderness: walls only", ".0f"), ("slenderness: with pillars", ".0f"), ("proved", ""), ("what", "")],
-                  note="`--pillars`; outside, new points may get pillars without it, so there walls only are had with `--pillar-length 100`.")
+                  note="`--pillars`; the thrifty strategy's lean in cavities (`--leaning-length` 1 mm). Outside, new points may get pillars without it, so there walls only are had with `--pillar-length 100`.")
     rows = [(lab.registry["low_roof"], NO_COVER), (lab.registry["low_roof"], ONE_COVER), (lab.registry["far_tip"], NO_COVER),
             (lab.registry["hanging_tip"], (*NO_COVER, "--support", "external"))]
     for name in MESHES:

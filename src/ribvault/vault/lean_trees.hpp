@@ -55,8 +55,7 @@ private:
 
     MovingSupports& supports_;
     const Leaning& leaning_;
-    std::vector<std::size_t>
-        tree_;                    ///< by node: the number of its tree, before trees are led or once they are measured
+    std::vector<std::size_t> tree_;  ///< by node the number of its tree: before `lead`, or since `measure`
     std::vector<char> was_free_;  ///< by node: its tree stood free before
     /// By tree; measured.
     std::vector<double> track_, least_;
