@@ -15,6 +15,7 @@ PAGE = (ROOT / "docs/options.md").read_text()
 NOZZLE, RADIUS = decimal.Decimal("0.4"), decimal.Decimal("0.2")  # mm, what d and rho are when nothing is given
 # What an option needs to have an effect.
 WITH = {"--wall-lines-longer": ("--wall-lines", "2"), "--wall-lines-taller": ("--wall-lines", "2"),
+        "--leaning-length": ("--strategy", "thrifty", "--pillars"), "--leaning-ratio": ("--strategy", "thrifty", "--pillars"),
         "--support-gap": ("--support", "external"), "--support-gap-layers": ("--support", "external"),
         "--support-extruder": ("--support", "external"), "--support-temperature": ("--support", "external"), "--skirt-distance": ("--skirt", "1")}
 
