@@ -231,10 +231,10 @@ std::optional<Segment> PrintPatches::place_under(const HangingTrack& hanging, bo
     const Segment s = hanging.place();
     const std::optional<PlacedDot> dot = late ? std::nullopt : place(hanging);
     if (dot ? !dot->needed : held_since(before, s)) return std::nullopt;
+    if (dot) return Segment{dot->at, dot->at};
     // Tried before without success: now just below it.
     const bool again = std::find(tried_.begin(), tried_.end(), s.a) != tried_.end();
     tried_.push_back(s.a);
-    if (dot) return Segment{dot->at, dot->at};
     return again ? s : lowered(s, before);
 }
 
