@@ -21,6 +21,13 @@ def is_proved(lab, run):
     return lab.value(run, "verdict.proved") and lab.value(run, "verdict.print.proved")
 
 
+def add_mean(table, column, ratios):
+    """The last row: the geometric mean of what stands in this column."""
+    if ratios:
+        mean = math.exp(sum(map(math.log, ratios)) / len(ratios))
+        table.add("geometric mean", *[None] * (column - 1), mean, *[None] * (len(table.columns) - column - 2), f"largest {max(ratios):.2f}")
+
+
 def widths_table(lab):
     table = Table("thrifty_widths", "Narrower supports, thrifty, one cover, seed 1",
                   [("model", ""), ("--support-width", ""), ("supports mm³", ".0f"), ("all material mm³", ".0f"), ("minutes", ".1f"), ("travels", "d"), ("slenderness", ".0f"), ("leaning, 0.4 mm: supports mm³", ".0f"), ("leaning: slenderness", ".0f"), ("proved", ""),
@@ -62,9 +69,7 @@ def leaning_table(lab, models):
             ratios.append(ratio)
         table.add(model.title, *volumes, ratio, PEER_MM3.get(name), *(None if s is None else s / 60 for s in seconds), *travels, *slender,
                   all(is_proved(lab, r) for r in runs), next(filter(None, map(lab.why, runs)), model.origin))
-    if ratios:
-        mean = math.exp(sum(map(math.log, ratios)) / len(ratios))
-        table.add("geometric mean", *[None] * len(each), mean, *[None] * (len(table.columns) - len(each) - 3), f"largest {max(ratios):.2f}")
+    add_mean(table, 1 + len(each), ratios)
     return table
 
 
@@ -93,9 +98,7 @@ def build(lab):
         slender = [lab.value(r, "totals.slenderness") for r in (base, runs[0])]
         table.add(model.title, paper, *ours, ratio, None if bound is None else bound * MM3_PER_MM, *slender, PEER_MM3.get(name),
                   lab.value(base, "cpu_seconds"), lab.value(runs[0], "cpu_seconds"), all(proved), lab.why(base) or model.origin)
-    if ratios:
-        mean = math.exp(sum(map(math.log, ratios)) / len(ratios))
-        table.add("geometric mean", *[None] * (1 + len(INGREDIENTS)), mean, *[None] * 7, f"largest {max(ratios):.2f}")
+    add_mean(table, 2 + len(INGREDIENTS), ratios)
     for row, model, real in lab.paper_models("table2_reduction"):
         if model is None or not real:
             continue

@@ -25,12 +25,8 @@ std::vector<Segment> edges_off_frame(const Region& region) {
 CavityBoundary prepare_boundary(const Cavity& cavity) {
     if (!cavity.outside) return prepare_boundary(cavity.region);
     const Region& region = cavity.walls ? *cavity.walls : cavity.region;
-    return {NearestSegment(edges_off_frame(region)),
-            PointLocation(edges_of(region), units_per_mm / 2),
-            true,
-            !cavity.walls,
-            cavity.layer,
-            {}};
+    return {NearestSegment(edges_off_frame(region)), PointLocation(edges_of(region), units_per_mm / 2), true,
+            !cavity.walls, cavity.layer};
 }
 
 Point place_root(Point p, const CavityBoundary& boundary) {

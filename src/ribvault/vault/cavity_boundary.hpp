@@ -27,7 +27,7 @@ struct CavityBoundary {
     bool free_trees = false; ///< trees may stand free (vault/free_trees.hpp)
     bool rooted = true;      ///< the edges are the shell's: walls may be rooted there
     int layers_below = 0;    ///< down to the bed, on which a tree may stand
-    std::optional<Leaning> leaning;  ///< trees that stand free lean; there is a shell then
+    std::optional<Leaning> leaning{};  ///< trees that stand free lean; there is a shell then
     /// Is there a shell on which a wall can be rooted?
     bool has_shell() const { return rooted && !edges.empty(); }
 };
