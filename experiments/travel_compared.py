@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 """Travels, retractions, time and material beside PrusaSlicer 2.5 and CuraEngine 4.13, from the G-code of all three.
 
-Usage: experiments/travel_compared.py [--models FOLDER] [--program build/bin/ribvault] [--options "--shell-first ..."]
+Usage: experiments/travel_compared.py [--models FOLDER] [--program build/bin/ribvault] [--options "--shell-first ..."] [--line-distances 2.6,0.8]
 
-All at h = 0.2 mm, d = 0.4 mm, one perimeter, one cover, lightning at 15 % (PrusaSlicer) and 2.6 mm line distance (CuraEngine), at equal
-speeds (40 mm/s shell, 60 mm/s infill or supports, 20 mm/s first layer, 150 mm/s travel), no layer slower so that it sets, 3 mm retraction at 40 mm/s, no skirt.
+All at h = 0.2 mm, d = 0.4 mm, one perimeter, one cover, lightning at 15 % (PrusaSlicer) and at each of --line-distances (CuraEngine; 2.6 mm is
+15 %), at equal speeds (40 mm/s shell, 60 mm/s infill or supports, 20 mm/s first layer, 150 mm/s travel), no layer slower so that it sets, 3 mm retraction at 40 mm/s, no skirt.
 A travel is a run of moves without extrusion between two tracks, its length that in x and y; retractions are moves of the
 filament backwards. Time: the same estimate for all three files, trapezoids with PrusaSlicer's default limits, here once more in
-Python so that it does not depend on the program; it ignores heating. Slicers that are missing are left out, as are the
+Python so that it does not depend on the program; it ignores heating. On air: mm of track of which `ribvault verify --inside` finds nothing
+within rho below (for the models' external overhangs no infill is to blame); "-" where outer perimeters are left open, so that inside is nowhere. Slicers that are missing are left out, as are the
 paper's models without --models. From CGAL's data (Debian: libcgal-demo) five meshes, 50 mm high. Prints a Markdown table.
 """
 import argparse
+import json
 import math
 import pathlib
 import shlex
@@ -150,7 +152,7 @@ def measure(gcode, filament):
             "mm3": pushed * math.pi / 4 * filament ** 2}
 
 
-def slice_with(name, stl, out, log):
+def slice_with(name, stl, out, log, line_distance):
     if name == "PrusaSlicer":
         widths = [a for kind in ("", "external-perimeter-", "first-layer-", "infill-", "perimeter-", "solid-infill-", "top-infill-")
                   for a in (f"--{kind}extrusion-width", "0.4")]
@@ -161,7 +163,7 @@ def slice_with(name, stl, out, log):
                    "--solid-infill-speed", "40", "--top-solid-infill-speed", "40", "--small-perimeter-speed", "40", "--bridge-speed", "60",
                    "--first-layer-speed", "20", "--slowdown-below-layer-time", "0", *widths]
     else:
-        settings = {"infill_pattern": "lightning", "infill_line_distance": 2.6, "infill_sparse_density": 15, "wall_line_count": 1, "top_layers": 1,
+        settings = {"infill_pattern": "lightning", "infill_line_distance": line_distance, "infill_sparse_density": 15, "wall_line_count": 1, "top_layers": 1,
                     "bottom_layers": 1, "roofing_layer_count": 0, "layer_height": 0.2, "layer_height_0": 0.2, "adhesion_type": "none",
                     "machine_width": 200, "machine_depth": 200, "mesh_rotation_matrix": "[[1,0,0],[0,1,0],[0,0,1]]", "cool_min_layer_time": 0,
                     "speed_wall_0": 40, "speed_wall_x": 40, "speed_topbottom": 40, "speed_infill": 60, "speed_travel": 150, "speed_print_layer_0": 20,
@@ -175,14 +177,29 @@ def slice_with(name, stl, out, log):
         return subprocess.run(list(map(str, command)), stdout=output, stderr=output, env=environment).returncode == 0 and out.exists()
 
 
+def mm_on_air(program, gcode, report):
+    """None where the outer perimeters are not closed, as PrusaSlicer's at the seam, so that nothing is inside."""
+    report.unlink(missing_ok=True)
+    command = [program, "verify", "--inside", "--nozzle", "0.4", "--filament-diameter", "1.75", gcode, "--report", report, "--quiet"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if not report.exists() and "needs closed loops" not in done.stderr:
+        raise SystemExit(done.stderr)
+    return json.loads(report.read_text())["totals"]["unsupported_mm"][1] if report.exists() else None
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--models", type=pathlib.Path)
     parser.add_argument("--program", default=ROOT / "build/bin/ribvault")
     parser.add_argument("--options", default="", help="more options for ribvault")
+    parser.add_argument("--line-distances", default="2.6", help="of CuraEngine's infill, mm, with commas between")
     arguments = parser.parse_args()
-    slicers = [name for name, program in (("PrusaSlicer", "prusa-slicer"), ("CuraEngine", "CuraEngine")) if shutil.which(program)]
-    print("| model | program | travels | travel mm | retractions | minutes | mm3 |\n| --- | --- | --- | --- | --- | --- | --- |")
+    programs = [("ribvault", None)]
+    if shutil.which("prusa-slicer"):
+        programs.append(("PrusaSlicer", None))
+    if shutil.which("CuraEngine"):
+        programs += [("CuraEngine", float(mm)) for mm in arguments.line_distances.split(",")]
+    print("| model | program | travels | travel mm | retractions | minutes | mm3 | mm on air |\n| --- | --- | --- | --- | --- | --- | --- | --- |")
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         models = [(n, f if isinstance(f, pathlib.Path) else arguments.models / f if arguments.models else None, o) for n, f, o in MODELS]
@@ -197,18 +214,20 @@ def main():
                 continue
             stl, out = folder / "model.stl", folder / "out.gcode"
             placed_stl(source, options, stl)
-            for program in ["ribvault", *slicers]:
+            for program, line_distance in programs:
+                label = program if line_distance is None else f"{program}, {line_distance:g} mm"
                 out.unlink(missing_ok=True)
                 if program == "ribvault":
                     done = subprocess.run([arguments.program, "generate", source, *options, "-o", out, "--quiet", "--min-layer-time", "0", *shlex.split(arguments.options)])
                     good = done.returncode in (0, 1)
                 else:
-                    good = slice_with(program, stl, out, folder / "log")
+                    good = slice_with(program, stl, out, folder / "log", line_distance)
                 if not good:
-                    print(f"| {name} | {program} | failed |")
+                    print(f"| {name} | {label} | failed |")
                     continue
                 m = measure(out, 1.75)
-                print(f"| {name} | {program} | {m['travels']} | {m['length']:.0f} | {m['retractions']} | {m['minutes']:.1f} | {m['mm3']:.0f} |", flush=True)
+                air = mm_on_air(arguments.program, out, folder / "verdict.json")
+                print(f"| {name} | {label} | {m['travels']} | {m['length']:.0f} | {m['retractions']} | {m['minutes']:.1f} | {m['mm3']:.0f} | {'-' if air is None else f'{air:.1f}'} |", flush=True)
 
 
 if __name__ == "__main__":
