@@ -9,6 +9,7 @@
 #include "ribvault/exact/int128.hpp"
 #include "ribvault/verify/height_rows.hpp"
 #include "ribvault/verify/point_signs.hpp"
+#include "ribvault/verify/winding.hpp"
 
 namespace ribvault::verify {
 
@@ -156,10 +157,8 @@ private:
     int crossing(const Edge& e, Located& v, int vertex) const {
         const Vertex &a = problem_.vertices[e.a], &b = problem_.vertices[e.b];
         if (std::max(a.x.sup(), b.x.sup()) < v.x.inf()) return 0;
-        const bool up = above(e.b, v, vertex);
-        if (above(e.a, v, vertex) == up) return 0;
-        const int way = up ? 1 : -1;
-        return orientation_sign(v, e.a, e.b, Stage::algebraic) == way ? way : 0;
+        return ray_crossing(above(e.a, v, vertex), above(e.b, v, vertex),
+                            [&] { return orientation_sign(v, e.a, e.b, Stage::algebraic); });
     }
 
     const CoverProblem& problem_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ribvault/verify/winding.hpp"
+
 namespace ribvault::verify {
 
 namespace {
@@ -10,30 +12,19 @@ namespace {
 constexpr std::size_t few_windows = 8;                ///< for which it does not pay to put things in rows and squares
 constexpr double half_diagonal = 1.4142135623730952;  // above the square root of 2
 
-Track track_of(const CoverProblem& problem, int a, int b) {
+PreparedTrack track_of(const CoverProblem& problem, int a, int b, double radius) {
     const Vertex &p = problem.vertices[a], &q = problem.vertices[b];
-    const double dx = q.cx - p.cx, dy = q.cy - p.cy, norm = dx * dx + dy * dy;
-    return {p.cx, p.cy, dx, dy, norm > 0 ? 1 / norm : 0};
+    return prepared_track(p.cx, p.cy, q.cx, q.cy, radius);
 }
 
-double squared_distance(const Track& t, double x, double y) {
-    const double vx = x - t.ax, vy = y - t.ay;
-    double along = (vx * t.dx + vy * t.dy) * t.inverse_norm;
-    along = along > 0 ? along : 0;
-    along = along < 1 ? along : 1;
-    const double ex = vx - along * t.dx, ey = vy - along * t.dy;
-    return ex * ex + ey * ey;
-}
-
-// `centre_distance`: from the cell's centre to the stadium's segment.
-bool stadium_contains(const Subdivision& s, const Track& track, double radius, const Cell& cell,
-                      double centre_distance) {
-    const double reach = radius - s.margin;
-    if (centre_distance + cell.half * half_diagonal <= reach) return true;
-    if (centre_distance + cell.half > reach || reach < 0) return false;
+// `distance`: from the cell's centre to the stadium's segment.
+bool stadium_contains(const Subdivision& s, const PreparedTrack& track, const Cell& cell, double distance) {
+    const double reach = track.half - s.margin;
+    if (distance + cell.half * half_diagonal <= reach) return true;
+    if (distance + cell.half > reach || reach < 0) return false;
     for (const double dx : {-cell.half, cell.half})
         for (const double dy : {-cell.half, cell.half})
-            if (squared_distance(track, cell.x + dx, cell.y + dy) > reach * reach) return false;
+            if (squared_centre_distance(track, cell.x + dx, cell.y + dy) > reach * reach) return false;
     return true;
 }
 
@@ -47,7 +38,7 @@ int certain_turn(const Subdivision& s, double dx, double dy, double vx, double v
 }
 // On which side of an edge's line (x, y) lies; exact when doubles do not tell, as for edges shorter than their
 // rounding.
-int side_of_edge(const Subdivision& s, const Track& t, const Edge& e, double x, double y) {
+int side_of_edge(const Subdivision& s, const PreparedTrack& t, const Edge& e, double x, double y) {
     const int turn = certain_turn(s, t.dx, t.dy, x - t.ax, y - t.ay);
     if (turn != 0) return turn;
     const Vec<Rational> a = exact_point<Rational>(s.problem->vertices[e.a]);
@@ -56,8 +47,8 @@ int side_of_edge(const Subdivision& s, const Track& t, const Edge& e, double x, 
 }
 
 template <class Edges>
-bool off_edge_lines(const Subdivision& s, const std::vector<Track>& tracks, const Edges& edges, const Indices& which,
-                    double x, double y) {
+bool off_edge_lines(const Subdivision& s, const std::vector<PreparedTrack>& tracks, const Edges& edges,
+                    const Indices& which, double x, double y) {
     return std::all_of(which.begin(), which.end(),
                        [&](int i) { return side_of_edge(s, tracks[i], edges[i], x, y) != 0; });
 }
@@ -72,18 +63,12 @@ bool left_of_path(const Subdivision& s, int vertex, double x, double y, double u
                          Vec<Rational>(exact_point<Rational>(v) - from))) >= 0;
 }
 
-int path_crossings(const Subdivision& s, const std::vector<Track>& tracks, const std::vector<Edge>& edges,
+int path_crossings(const Subdivision& s, const std::vector<PreparedTrack>& tracks, const std::vector<Edge>& edges,
                    const Indices& which, const Cell& cell, double to_x, double to_y) {
-    int winding = 0;
-    for (const int i : which) {
-        const int side = side_of_edge(s, tracks[i], edges[i], to_x, to_y);
-        if (side == side_of_edge(s, tracks[i], edges[i], cell.ref_x, cell.ref_y)) continue;
-        if (left_of_path(s, edges[i].a, cell.ref_x, cell.ref_y, to_x, to_y) ==
-            left_of_path(s, edges[i].b, cell.ref_x, cell.ref_y, to_x, to_y))
-            continue;
-        winding += side;
-    }
-    return winding;
+    return winding_change(
+        edges, which, [&](int i) { return side_of_edge(s, tracks[i], edges[i], cell.ref_x, cell.ref_y); },
+        [&](int i) { return side_of_edge(s, tracks[i], edges[i], to_x, to_y); },
+        [&](int vertex) { return left_of_path(s, vertex, cell.ref_x, cell.ref_y, to_x, to_y); });
 }
 
 // The centre of the cell, up to a few margins by which it may have to leave a line.
@@ -99,7 +84,7 @@ Vec<double> off_lines(const Subdivision& s, const Cell& cell) {
 
 // Winding number of all edges about a point on none of them: those that a ray to +x crosses. A vertex on the ray counts
 // as above it.
-int winding_at(const Subdivision& s, const std::vector<Track>& tracks, const std::vector<Edge>& edges,
+int winding_at(const Subdivision& s, const std::vector<PreparedTrack>& tracks, const std::vector<Edge>& edges,
                const HeightRows& rows, double x, double y) {
     const auto above = [&](double height, int vertex) {
         if (height > y + s.margin) return true;
@@ -107,14 +92,12 @@ int winding_at(const Subdivision& s, const std::vector<Track>& tracks, const std
         return exact_point<Rational>(s.problem->vertices[vertex]).y >= Rational(y);
     };
     const auto crossing = [&](std::size_t i) {
-        const Track& t = tracks[i];
-        const double end = t.ay + t.dy;
-        if (std::max(t.ay, end) < y - s.margin || std::min(t.ay, end) > y + s.margin ||
-            std::max(t.ax, t.ax + t.dx) < x - s.margin)
+        const PreparedTrack& t = tracks[i];
+        if (std::max(t.ay, t.by) < y - s.margin || std::min(t.ay, t.by) > y + s.margin ||
+            std::max(t.ax, t.bx) < x - s.margin)
             return 0;
-        const bool up = above(end, edges[i].b);
-        if (above(t.ay, edges[i].a) == up) return 0;
-        return side_of_edge(s, t, edges[i], x, y) == (up ? 1 : -1) ? (up ? 1 : -1) : 0;
+        return ray_crossing(above(t.ay, edges[i].a), above(t.by, edges[i].b),
+                            [&] { return side_of_edge(s, t, edges[i], x, y); });
     };
     int winding = 0;
     if (rows.empty())
@@ -155,36 +138,20 @@ Subdivision subdivision(const CoverProblem& problem, std::size_t windows) {
     Subdivision s;
     s.problem = &problem;
     s.margin = std::ldexp(c, -34);
-    for (const Stadium& t : problem.sites) s.sites.push_back(track_of(problem, t.a, t.b));
-    for (const Edge& t : problem.material) s.material.push_back(track_of(problem, t.a, t.b));
-    for (const Stadium& t : problem.pieces) s.pieces.push_back(track_of(problem, t.a, t.b));
+    for (const Stadium& t : problem.sites) s.sites.push_back(track_of(problem, t.a, t.b, t.radius.approx));
+    for (const Edge& t : problem.material) s.material.push_back(track_of(problem, t.a, t.b, 0));
+    for (const Stadium& t : problem.pieces) s.pieces.push_back(track_of(problem, t.a, t.b, t.radius.approx));
     if (windows < few_windows) return s;
-    const auto rows = [&](const std::vector<Track>& tracks, std::size_t count) {
+    const auto rows = [&](const std::vector<PreparedTrack>& tracks, std::size_t count) {
         return HeightRows(count, [&](std::size_t i) {
-            const Track& t = tracks[i];
+            const PreparedTrack& t = tracks[i];
             const double reach = 32 * s.margin;
-            return std::pair(std::min(t.ay, t.ay + t.dy) - reach, std::max(t.ay, t.ay + t.dy) + reach);
+            return std::pair(std::min(t.ay, t.by) - reach, std::max(t.ay, t.by) + reach);
         });
     };
     s.region_rows = rows(s.sites, problem.region.size()), s.material_rows = rows(s.material, s.material.size());
-    auto squares = std::make_unique<Subdivision::Squares>();
-    const auto prepared = [](const std::vector<Track>& tracks, const auto& radius) {
-        std::vector<PreparedTrack> all(tracks.size());
-        for (std::size_t i = 0; i < tracks.size(); ++i) {
-            const Track& t = tracks[i];
-            PreparedTrack& p = all[i];
-            p.ax = t.ax, p.ay = t.ay, p.bx = t.ax + t.dx, p.by = t.ay + t.dy, p.dx = t.dx, p.dy = t.dy;
-            p.inverse_norm = t.inverse_norm, p.half = radius(i);
-        }
-        return all;
-    };
-    squares->site_tracks = prepared(s.sites, [&](std::size_t i) { return problem.sites[i].radius.approx; });
-    squares->material_tracks = prepared(s.material, [](std::size_t) { return 0.0; });
-    squares->piece_tracks = prepared(s.pieces, [&](std::size_t i) { return problem.pieces[i].radius.approx; });
-    squares->sites = TrackGrid(squares->site_tracks, 32 * s.margin);
-    squares->material = TrackGrid(squares->material_tracks, 32 * s.margin);
-    squares->pieces = TrackGrid(squares->piece_tracks, 32 * s.margin);
-    s.squares = std::move(squares);
+    s.squares = std::make_unique<const Subdivision::Squares>(Subdivision::Squares{
+        TrackGrid(s.sites, 32 * s.margin), TrackGrid(s.material, 32 * s.margin), TrackGrid(s.pieces, 32 * s.margin)});
     return s;
 }
 
@@ -202,17 +169,18 @@ CellState root_cell(const Subdivision& s, const Window& window, Cell& cell) {
     cell.sites.clear(), cell.edges.clear(), cell.pieces.clear(), cell.region.clear();
     cell.x = (square.lo_x + square.hi_x) / 2, cell.y = (square.lo_y + square.hi_y) / 2;
     cell.half = (square.hi_x - square.lo_x) / 2;
-    const auto near = [&](const Track& t, double radius) {
+    const auto near = [&](const PreparedTrack& t, double radius) {
         const double reach = cell.half + radius + 16 * s.margin;
-        return std::max(t.ax, t.ax + t.dx) > cell.x - reach && std::min(t.ax, t.ax + t.dx) < cell.x + reach &&
-               std::max(t.ay, t.ay + t.dy) > cell.y - reach && std::min(t.ay, t.ay + t.dy) < cell.y + reach;
+        return std::max(t.ax, t.bx) > cell.x - reach && std::min(t.ax, t.bx) < cell.x + reach &&
+               std::max(t.ay, t.by) > cell.y - reach && std::min(t.ay, t.by) < cell.y + reach;
     };
     std::vector<int> found;
     // Those of the tracks, in their order, that come near the square.
-    const auto visit_near = [&](const TrackGrid Subdivision::Squares::*grid, const std::vector<Track>& tracks,
-                                const auto& radius, const auto& use) {
+    const auto visit_near = [&](const TrackGrid Subdivision::Squares::*grid, const std::vector<PreparedTrack>& tracks,
+                                const auto& use) {
         const auto look_at = [&](int i) {
-            if (near(tracks[static_cast<std::size_t>(i)], radius(i))) use(i);
+            const PreparedTrack& t = tracks[static_cast<std::size_t>(i)];
+            if (near(t, t.half)) use(i);
         };
         if (s.squares) {
             ((*s.squares).*grid).near(cell.x, cell.y, cell.half, found);
@@ -221,17 +189,12 @@ CellState root_cell(const Subdivision& s, const Window& window, Cell& cell) {
             for (int i = 0; i < static_cast<int>(tracks.size()); ++i) look_at(i);
         }
     };
-    visit_near(
-        &Subdivision::Squares::sites, s.sites, [&](int i) { return problem.sites[i].radius.approx; },
-        [&](int i) {
-            cell.sites.push_back(i);
-            if (static_cast<std::size_t>(i) < problem.region.size() && near(s.sites[i], 0)) cell.region.push_back(i);
-        });
-    visit_near(
-        &Subdivision::Squares::material, s.material, [](int) { return 0.0; }, [&](int i) { cell.edges.push_back(i); });
-    visit_near(
-        &Subdivision::Squares::pieces, s.pieces, [&](int i) { return problem.pieces[i].radius.approx; },
-        [&](int i) { cell.pieces.push_back(i); });
+    visit_near(&Subdivision::Squares::sites, s.sites, [&](int i) {
+        cell.sites.push_back(i);
+        if (static_cast<std::size_t>(i) < problem.region.size() && near(s.sites[i], 0)) cell.region.push_back(i);
+    });
+    visit_near(&Subdivision::Squares::material, s.material, [&](int i) { cell.edges.push_back(i); });
+    visit_near(&Subdivision::Squares::pieces, s.pieces, [&](int i) { cell.pieces.push_back(i); });
     const auto [x, y] = off_lines(s, cell);
     cell.ref_x = x, cell.ref_y = y;
     cell.material_winding = winding_at(s, s.material, problem.material, s.material_rows, x, y);
@@ -248,21 +211,23 @@ CellState quarter(const Subdivision& s, const Cell& parent, int index, Cell& cel
     const double reach = cell.half * half_diagonal + 8 * s.margin;
     const int region_edges = static_cast<int>(problem.region.size());
     for (const int i : parent.sites) {
-        const double radius = problem.sites[i].radius.approx, squared = squared_distance(s.sites[i], cell.x, cell.y);
-        if (squared > (radius + reach) * (radius + reach)) continue;
+        const PreparedTrack& site = s.sites[i];
+        const double squared = squared_centre_distance(site, cell.x, cell.y);
+        if (squared > (site.half + reach) * (site.half + reach)) continue;
         const double d = std::sqrt(squared);
-        if (stadium_contains(s, s.sites[i], radius, cell, d)) return CellState::settled;
+        if (stadium_contains(s, site, cell, d)) return CellState::settled;
         cell.sites.push_back(i);
         if (i < region_edges && d <= reach) cell.region.push_back(i);
     }
     for (const int i : parent.edges)
-        if (squared_distance(s.material[i], cell.x, cell.y) <= reach * reach) cell.edges.push_back(i);
+        if (squared_centre_distance(s.material[i], cell.x, cell.y) <= reach * reach) cell.edges.push_back(i);
     bool in_piece = false;
     for (const int i : parent.pieces) {
-        const double radius = problem.pieces[i].radius.approx, squared = squared_distance(s.pieces[i], cell.x, cell.y);
-        if (squared > (radius + reach) * (radius + reach)) continue;
+        const PreparedTrack& piece = s.pieces[i];
+        const double squared = squared_centre_distance(piece, cell.x, cell.y);
+        if (squared > (piece.half + reach) * (piece.half + reach)) continue;
         cell.pieces.push_back(i);
-        in_piece = in_piece || stadium_contains(s, s.pieces[i], radius, cell, std::sqrt(squared));
+        in_piece = in_piece || stadium_contains(s, piece, cell, std::sqrt(squared));
     }
     cell.ref_x = parent.ref_x, cell.ref_y = parent.ref_y;
     cell.material_winding = parent.material_winding, cell.region_winding = parent.region_winding;

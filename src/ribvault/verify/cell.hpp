@@ -29,22 +29,16 @@ enum class CellState {
     open
 };
 
-/// A segment in doubles, prepared for distances.
-struct Track {
-    double ax = 0, ay = 0, dx = 0, dy = 0, inverse_norm = 0;  ///< inverse_norm 0: a point
-};
-
 /// Cells of one problem. Distances are computed in doubles; `margin` is far above their error, see subdivision().
 struct Subdivision {
     const CoverProblem* problem = nullptr;
     double margin = 0;
-    std::vector<Track> sites, material, pieces;
+    std::vector<PreparedTrack> sites, material, pieces;  ///< sites and pieces with their radii, material without
     /// By the heights of the edges of region and material; nothing where there are few windows.
     HeightRows region_rows, material_rows;
-    /// What comes near a square: sites and pieces with their radii, material without. None where there are few windows.
+    /// What comes near a square. None where there are few windows.
     struct Squares {
-        std::vector<PreparedTrack> site_tracks, material_tracks, piece_tracks;
-        TrackGrid sites, material, pieces;  ///< of these
+        TrackGrid sites, material, pieces;
     };
     std::unique_ptr<const Squares> squares;
 };

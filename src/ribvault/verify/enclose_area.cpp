@@ -76,9 +76,9 @@ struct Line {
 };
 
 /// Nothing unless the edge passes the cell from side to side, or passes it by.
-std::optional<Line> line_through(const Track& t, const Cell& cell, double margin) {
-    const double length = std::sqrt(t.dx * t.dx + t.dy * t.dy), half = cell.half + 4 * margin;
-    if (length < 512 * margin) return std::nullopt;
+std::optional<Line> line_through(const PreparedTrack& t, const Cell& cell, double margin) {
+    const double half = cell.half + 4 * margin;
+    if (t.length < 512 * margin) return std::nullopt;
     double enters = -HUGE_VAL, leaves = HUGE_VAL;
     for (const auto& [at, d] : {std::pair(t.ax - cell.x, t.dx), std::pair(t.ay - cell.y, t.dy)}) {
         if (d == 0) {
@@ -89,7 +89,7 @@ std::optional<Line> line_through(const Track& t, const Cell& cell, double margin
         enters = std::max(enters, std::min(one, other)), leaves = std::min(leaves, std::max(one, other));
     }
     if (enters <= leaves && (enters <= 0 || leaves >= 1)) return std::nullopt;
-    Line line{{-t.dy / length, t.dx / length}, 0, false};
+    Line line{{-t.dy / t.length, t.dx / t.length}, 0, false};
     line.from = (t.ax - cell.x) * line.left.x + (t.ay - cell.y) * line.left.y;
     const double height = (cell.ref_x - cell.x) * line.left.x + (cell.ref_y - cell.y) * line.left.y - line.from;
     if (std::abs(height) < margin) return std::nullopt;
@@ -107,23 +107,21 @@ std::optional<Corner> corner_of(const Subdivision& s, const Cell& cell) {
     const auto e = static_cast<std::size_t>(cell.edges[0]), f = static_cast<std::size_t>(cell.edges[1]);
     const bool in_order = s.problem->material[e].b == s.problem->material[f].a;
     if (!in_order && s.problem->material[f].b != s.problem->material[e].a) return std::nullopt;
-    const Track &in = s.material[in_order ? e : f], &out = s.material[in_order ? f : e];
+    const PreparedTrack &in = s.material[in_order ? e : f], &out = s.material[in_order ? f : e];
     const auto inside = [&](double x, double y, double half) {
         return std::max(std::abs(x - cell.x), std::abs(y - cell.y)) < half;
     };
     const double wide = cell.half + 4 * s.margin;
-    if (!inside(out.ax, out.ay, cell.half - s.margin) || inside(in.ax, in.ay, wide) ||
-        inside(out.ax + out.dx, out.ay + out.dy, wide))
+    if (!inside(out.ax, out.ay, cell.half - s.margin) || inside(in.ax, in.ay, wide) || inside(out.bx, out.by, wide))
         return std::nullopt;
     Corner corner{};
     for (const bool first : {true, false}) {
         // From the corner on to both sides, so that each line passes the cell.
-        Track t = first ? in : out;
-        const double length = std::sqrt(t.dx * t.dx + t.dy * t.dy);
-        if (length < 512 * s.margin) return std::nullopt;
-        const double on = 8 * wide / length;
-        t.ax = out.ax - on * t.dx, t.ay = out.ay - on * t.dy, t.dx *= 2 * on, t.dy *= 2 * on;
-        const std::optional<Line> line = line_through(t, cell, s.margin);
+        const PreparedTrack& t = first ? in : out;
+        if (t.length < 512 * s.margin) return std::nullopt;
+        const double x = 8 * wide / t.length * t.dx, y = 8 * wide / t.length * t.dy;
+        const std::optional<Line> line =
+            line_through(prepared_track(out.ax - x, out.ay - y, out.ax + x, out.ay + y, 0), cell, s.margin);
         if (!line) return std::nullopt;
         corner.lines[first ? 0 : 1] = *line;
     }
@@ -185,7 +183,6 @@ std::optional<boost::container::small_vector<Bounds, 4>> parts_of_material(const
 Part bounded(const Subdivision& s, Cell&& open) {
     Part part{std::move(open), 0, 0, {}};
     const Cell& cell = part.cell;
-    const CoverProblem& problem = *s.problem;
     const double all = 4 * cell.half * cell.half;
     part.hi = all;
     if (!cell.pieces.empty() || !cell.region.empty() || cell.edges.size() > 2 || cell.sites.size() > 12) return part;
@@ -195,7 +192,7 @@ Part bounded(const Subdivision& s, Cell&& open) {
     Bounds bounds{square, square};
     bool nothing_certain = false;
     for (const int i : cell.sites) {
-        const Track& t = s.sites[static_cast<std::size_t>(i)];
+        const PreparedTrack& t = s.sites[static_cast<std::size_t>(i)];
         const double vx = cell.x - t.ax, vy = cell.y - t.ay;
         const double place = (vx * t.dx + vy * t.dy) * t.inverse_norm, along = std::clamp(place, 0.0, 1.0);
         const double ex = vx - along * t.dx, ey = vy - along * t.dy, d = std::sqrt(ex * ex + ey * ey);
@@ -203,9 +200,9 @@ Part bounded(const Subdivision& s, Cell&& open) {
             nothing_certain = true;
             continue;
         }
-        const double to_end = std::min(place, 1 - place) * std::sqrt(t.dx * t.dx + t.dy * t.dy);
+        const double to_end = std::min(place, 1 - place) * t.length;
         const double slack = to_end > h + s.margin ? 0 : h * h / (2 * (d - h));
-        bounds.cut({ex / d, ey / d}, problem.sites[static_cast<std::size_t>(i)].radius.approx - d, slack, s.margin);
+        bounds.cut({ex / d, ey / d}, t.half - d, slack, s.margin);
     }
     const auto parts = parts_of_material(s, cell, bounds);
     if (!parts) {

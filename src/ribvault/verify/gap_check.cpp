@@ -1,6 +1,7 @@
 #include "ribvault/verify/gap_check.hpp"
 
 #include "ribvault/slice/exact_polygons.hpp"
+#include "ribvault/verify/winding.hpp"
 
 namespace ribvault {
 namespace {
@@ -27,9 +28,8 @@ bool inside(const std::vector<OutlineEdge>& edges, const ExactKernel::Point_2& p
     for (const OutlineEdge& e : edges) {
         if (e.box.ymax() < at.ymin() || e.box.ymin() > at.ymax() || e.box.xmax() < at.xmin()) continue;
         const auto &a = e.edge.source(), &b = e.edge.target();
-        if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-        const CGAL::Orientation side = CGAL::orientation(a, b, p);
-        if (side == (b.y() > a.y() ? CGAL::LEFT_TURN : CGAL::RIGHT_TURN)) odd = !odd;
+        const auto side = [&] { return static_cast<int>(CGAL::orientation(a, b, p)); };
+        if (verify::ray_crossing(a.y() >= p.y(), b.y() >= p.y(), side) != 0) odd = !odd;
     }
     return odd;
 }

@@ -8,6 +8,7 @@
 
 #include "ribvault/verify/exact_stadium.hpp"
 #include "ribvault/verify/height_rows.hpp"
+#include "ribvault/verify/winding.hpp"
 
 namespace ribvault {
 namespace {
@@ -163,11 +164,13 @@ private:
         const auto cross_edge = [&](std::uint32_t k) {
             const Approximate& e = doubles_[k];
             if (std::max(e.ax, e.bx) < x - margin) return;
-            const bool up = above(e.by, edges_[k]->b[1]);
-            if (above(e.ay, edges_[k]->a[1]) == up) return;
-            int side = std::min(e.ax, e.bx) > x + margin ? (up ? 1 : -1) : turn(e.ax, e.ay, e.bx, e.by, x, y, c);
-            if (side == 0) side = sgn(cross(rational(edges_[k]->a), rational(edges_[k]->b), p()));
-            if (side == (up ? 1 : -1)) ++crossed;
+            const bool a_above = above(e.ay, edges_[k]->a[1]), b_above = above(e.by, edges_[k]->b[1]);
+            const auto side = [&] {
+                if (std::min(e.ax, e.bx) > x + margin) return b_above ? 1 : -1;
+                const int sure = turn(e.ax, e.ay, e.bx, e.by, x, y, c);
+                return sure != 0 ? sure : sgn(cross(rational(edges_[k]->a), rational(edges_[k]->b), p()));
+            };
+            if (verify::ray_crossing(a_above, b_above, side) != 0) ++crossed;
         };
         // The rows allow for errors of 2^-45 of the edges' largest coordinate, so y may be off by that.
         if (c <= 16 * largest_)

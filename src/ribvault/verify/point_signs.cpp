@@ -1,5 +1,9 @@
 #include "ribvault/verify/point_signs.hpp"
 
+#include <algorithm>
+
+#include "ribvault/verify/winding.hpp"
+
 namespace ribvault::verify {
 
 namespace {
@@ -24,9 +28,14 @@ Vec<NT> at(const CoverProblem& problem, int vertex) {
     return exact_point<NT>(problem.vertices[vertex]);
 }
 
+/// On which side of the edge's line (x, y) is.
 int line_side(const CoverProblem& problem, const Edge& e, double x, double y) {
     const Vec<Interval> a = at<Interval>(problem, e.a), b = at<Interval>(problem, e.b);
-    return sign_of(cross(Vec<Interval>(b - a), Vec<Interval>(Vec<Interval>{Interval(x), Interval(y)} - a)));
+    const int side = sign_of(cross(Vec<Interval>(b - a), Vec<Interval>(Vec<Interval>{Interval(x), Interval(y)} - a)));
+    if (side != unknown) return side;
+    // Edges may be too short for machine numbers to tell their sides from any distance.
+    Located point = double_point(problem, x, y);
+    return orientation_sign(point, e.a, e.b, Stage::algebraic);
 }
 
 }  // namespace
@@ -117,14 +126,7 @@ Located double_point(const CoverProblem& problem, double x, double y) {
 }
 
 bool off_lines(const CoverProblem& problem, std::span<const Edge> all, std::span<const int> which, double x, double y) {
-    Located point = double_point(problem, x, y);
-    for (const int e : which) {
-        int side = line_side(problem, all[e], x, y);
-        // Edges may be too short for machine numbers to tell their sides from any distance.
-        if (side == unknown) side = orientation_sign(point, all[e].a, all[e].b, Stage::algebraic);
-        if (side == 0) return false;
-    }
-    return true;
+    return std::all_of(which.begin(), which.end(), [&](int e) { return line_side(problem, all[e], x, y) != 0; });
 }
 
 int crossings(std::span<const Edge> all, std::span<const int> which, double from_x, double from_y, Located& to) {
@@ -140,19 +142,9 @@ int crossings(std::span<const Edge> all, std::span<const int> which, double from
                    },
                    exact) >= 0;
     };
-    int winding = 0;
-    for (const int e : which) {
-        const int to_side = orientation_sign(to, all[e].a, all[e].b, exact);
-        int from_side = line_side(problem, all[e], from_x, from_y);
-        if (from_side == unknown) {
-            Located from = double_point(problem, from_x, from_y);
-            from_side = orientation_sign(from, all[e].a, all[e].b, exact);
-        }
-        if (to_side == from_side) continue;
-        if (left_of_path(all[e].a) == left_of_path(all[e].b)) continue;
-        winding += to_side > 0 ? 1 : -1;
-    }
-    return winding;
+    return winding_change(
+        all, which, [&](int e) { return line_side(problem, all[e], from_x, from_y); },
+        [&](int e) { return orientation_sign(to, all[e].a, all[e].b, exact); }, left_of_path);
 }
 
 }  // namespace ribvault::verify

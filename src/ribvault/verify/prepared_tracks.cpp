@@ -6,29 +6,23 @@
 
 namespace ribvault::verify {
 
+PreparedTrack prepared_track(double ax, double ay, double bx, double by, double half) {
+    PreparedTrack t;
+    t.ax = ax, t.ay = ay, t.bx = bx, t.by = by, t.half = half;
+    t.dx = bx - ax, t.dy = by - ay;
+    const double norm = t.dx * t.dx + t.dy * t.dy;
+    t.length = std::sqrt(norm);
+    t.inverse_norm = norm > DBL_MIN ? 1 / norm : 0;
+    return t;
+}
+
 std::vector<PreparedTrack> prepare(std::span<const PrintedTrack> tracks) {
     std::vector<PreparedTrack> prepared;
     prepared.reserve(tracks.size());
-    for (const PrintedTrack& t : tracks) {
-        PreparedTrack p;
-        p.ax = t.a[0].get_d(), p.ay = t.a[1].get_d(), p.bx = t.b[0].get_d(), p.by = t.b[1].get_d();
-        p.dx = p.bx - p.ax, p.dy = p.by - p.ay;
-        const double norm = p.dx * p.dx + p.dy * p.dy;
-        p.length = std::sqrt(norm);
-        p.inverse_norm = norm > DBL_MIN ? 1 / norm : 0;
-        p.half = t.width.get_d() / 2;
-        prepared.push_back(p);
-    }
+    for (const PrintedTrack& t : tracks)
+        prepared.push_back(
+            prepared_track(t.a[0].get_d(), t.a[1].get_d(), t.b[0].get_d(), t.b[1].get_d(), t.width.get_d() / 2));
     return prepared;
-}
-
-double centre_distance(const PreparedTrack& t, double x, double y) {
-    const double vx = x - t.ax, vy = y - t.ay;
-    double along = (vx * t.dx + vy * t.dy) * t.inverse_norm;
-    along = along > 0 ? along : 0;
-    along = along < 1 ? along : 1;
-    const double ex = vx - along * t.dx, ey = vy - along * t.dy;
-    return std::sqrt(ex * ex + ey * ey);
 }
 
 double largest_coordinate(const std::vector<PreparedTrack>& upper, const std::vector<PreparedTrack>& lower,
@@ -40,7 +34,7 @@ double largest_coordinate(const std::vector<PreparedTrack>& upper, const std::ve
     return c * (1 + 0x1p-40);
 }
 
-TrackGrid::TrackGrid(const std::vector<PreparedTrack>& tracks, double reach) : tracks_(&tracks), reach_(reach) {
+TrackGrid::TrackGrid(std::span<const PreparedTrack> tracks, double reach) : tracks_(tracks), reach_(reach) {
     if (tracks.empty()) return;
     double hi_x = -HUGE_VAL, hi_y = -HUGE_VAL, widest = 0;
     lo_x_ = lo_y_ = HUGE_VAL;
@@ -97,7 +91,7 @@ void TrackGrid::visit_cells(const PreparedTrack& t, double radius, const Visit& 
 
 void TrackGrid::near(const PreparedTrack& t, double radius, std::vector<int>& found) const {
     found.clear();
-    if (!tracks_ || tracks_->empty()) return;
+    if (tracks_.empty()) return;
     visit_cells(t, radius, [&](std::size_t cell) {
         found.insert(found.end(), members_.begin() + starts_[cell], members_.begin() + starts_[cell + 1]);
     });
@@ -116,13 +110,13 @@ void TrackGrid::near(double x, double y, double half, std::vector<int>& found) c
 int TrackGrid::nearest(double x, double y, double& distance) const {
     distance = HUGE_VAL;
     int best = -1;
-    if (!tracks_ || tracks_->empty()) return best;
+    if (tracks_.empty()) return best;
     const int ci = column(x), cj = row(y);
     const auto visit = [&](int i, int j) {
         const std::size_t cell =
             static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i);
         for (std::uint32_t k = starts_[cell]; k < starts_[cell + 1]; ++k) {
-            const PreparedTrack& t = (*tracks_)[static_cast<std::size_t>(members_[k])];
+            const PreparedTrack& t = tracks_[static_cast<std::size_t>(members_[k])];
             const double d = centre_distance(t, x, y) - t.half;
             if (d < distance) distance = d, best = members_[k];
         }

@@ -1,6 +1,7 @@
-// Printed tracks in doubles, and which of them come near a track: what keeps rational numbers off the hot path. Light.
+// Tracks in doubles, and which of them come near a place: what keeps rational numbers off the hot path. Light.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,10 +17,21 @@ struct PreparedTrack {
     double half = 0;                                      ///< half the width
 };
 
+PreparedTrack prepared_track(double ax, double ay, double bx, double by, double half);
 std::vector<PreparedTrack> prepare(std::span<const PrintedTrack> tracks);
 
-/// Distance of (x, y) to the centre line.
-double centre_distance(const PreparedTrack& t, double x, double y);
+/// Squared distance of (x, y) to the centre line.
+inline double squared_centre_distance(const PreparedTrack& t, double x, double y) {
+    const double vx = x - t.ax, vy = y - t.ay;
+    double along = (vx * t.dx + vy * t.dy) * t.inverse_norm;
+    along = along > 0 ? along : 0;
+    along = along < 1 ? along : 1;
+    const double ex = vx - along * t.dx, ey = vy - along * t.dy;
+    return ex * ex + ey * ey;
+}
+inline double centre_distance(const PreparedTrack& t, double x, double y) {
+    return std::sqrt(squared_centre_distance(t, x, y));
+}
 
 /// An upper bound of every |coordinate|, width and ρ of two layers; at least the smallest positive double that keeps
 /// margins positive.
@@ -36,8 +48,9 @@ inline double margin_of(double c) { return c * 0x1p-40; }
 class TrackGrid {
 public:
     TrackGrid() = default;
-    /// Enters every track dilated by its half width + `reach`. The tracks must outlive the grid.
-    TrackGrid(const std::vector<PreparedTrack>& tracks, double reach);
+    /// Enters every track dilated by its half width + `reach`. The tracks must stay where they are while the grid is
+    /// used.
+    TrackGrid(std::span<const PreparedTrack> tracks, double reach);
 
     /// Indices (increasing) of at least every track whose stadium, dilated by `reach`, comes within `radius` of the
     /// centre line of `t`.
@@ -50,7 +63,7 @@ public:
     /// contains (x, y).
     template <class Test>
     bool any_at(double x, double y, const Test& test) const {
-        if (!tracks_ || tracks_->empty()) return false;
+        if (tracks_.empty()) return false;
         const std::size_t cell =
             static_cast<std::size_t>(row(y)) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column(x));
         for (std::uint32_t k = starts_[cell]; k < starts_[cell + 1]; ++k)
@@ -71,7 +84,7 @@ private:
     template <class Visit>
     void visit_cells(const PreparedTrack& t, double radius, const Visit& visit) const;
 
-    const std::vector<PreparedTrack>* tracks_ = nullptr;
+    std::span<const PreparedTrack> tracks_;
     double lo_x_ = 0, lo_y_ = 0, cell_ = 1, reach_ = 0;
     int columns_ = 0, rows_ = 0;
     std::vector<std::uint32_t> starts_;

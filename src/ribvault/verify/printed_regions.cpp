@@ -104,14 +104,9 @@ UnsupportedRegion describe(const PrintedPair& pair, const std::vector<const Open
 PreparedTrack part_of(const PrintedPair& pair, const OpenPart& part) {
     const PreparedTrack& t = pair.above[static_cast<std::size_t>(part.track)];
     if (t.inverse_norm == 0) return t;
-    PreparedTrack p = t;
     const double from = std::clamp(part.stretch.lo / t.length, 0.0, 1.0),
                  to = std::clamp(part.stretch.hi / t.length, 0.0, 1.0);
-    p.ax = t.ax + from * t.dx, p.ay = t.ay + from * t.dy, p.bx = t.ax + to * t.dx, p.by = t.ay + to * t.dy;
-    p.dx = p.bx - p.ax, p.dy = p.by - p.ay;
-    const double norm = p.dx * p.dx + p.dy * p.dy;
-    p.length = std::sqrt(norm), p.inverse_norm = norm > 0x1p-1000 ? 1 / norm : 0;
-    return p;
+    return prepared_track(t.ax + from * t.dx, t.ay + from * t.dy, t.ax + to * t.dx, t.ay + to * t.dy, t.half);
 }
 
 std::vector<UnsupportedRegion> describe_regions(const PrintedPair& pair, std::vector<OpenPart>& parts,
