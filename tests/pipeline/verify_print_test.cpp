@@ -315,6 +315,7 @@ TEST_CASE("outputs: the same for any number of threads", "[verify-print]") {
         VerifyJob job;
         job.gcode = gcode;
         job.threads = threads;
+        job.overlap = Rational(3, 4);  // more than the print was made for
         job.report = folder / "report.json", job.html = folder / "page.html",
         job.svg = folder / ("svg" + std::to_string(threads));
         const PrintReport r = verify_print(job);
@@ -325,9 +326,11 @@ TEST_CASE("outputs: the same for any number of threads", "[verify-print]") {
         std::set<std::filesystem::path> names;
         for (const auto& entry : std::filesystem::directory_iterator(*job.svg)) names.insert(entry.path());
         for (const auto& name : names) all += name.filename().string() + contents(name);
-        CHECK(names.size() <= 12);
         pictures.push_back(all);
         const auto parsed = nlohmann::json::parse(json);
+        const std::size_t hang = parsed["verdict"]["layers_unsupported"].size();
+        CHECK(hang > 0);
+        CHECK(names.size() == std::min<std::size_t>(12, hang));
         CHECK(parsed["schema"] == "ribvault-verify/1");
         CHECK(parsed["layers"].size() == r.layers.size());
         CHECK(parsed["verdict"]["supported"] == r.supported);
