@@ -48,9 +48,16 @@ void choose_strategy(const Written& w, Settings& s) {
     needs_thrifty(w.no_trim, "--no-trim");
     needs_thrifty(w.no_doubling, "--no-doubling");
     const bool shrink = thrifty && !w.no_shrink;
-    if (!shrink && (w.leaning_length || w.leaning_ratio))
-        throw Error(ErrorKind::usage, std::string(w.leaning_length ? "--leaning-length" : "--leaning-ratio") +
-                                          ": trees lean with --strategy thrifty only, not with --no-shrink");
+    const auto needs_leaning = [&](bool given, const char* option) {
+        if (given && !shrink)
+            throw Error(ErrorKind::usage,
+                        std::string(option) + ": trees lean with --strategy thrifty only, not with --no-shrink");
+        if (given && !s.inside())
+            throw Error(ErrorKind::usage,
+                        std::string(option) + ": trees lean in cavities, and --support external lets none stand there");
+    };
+    needs_leaning(w.leaning_length.has_value(), "--leaning-length");
+    needs_leaning(w.leaning_ratio, "--leaning-ratio");
     if (shrink && (w.no_straighten || w.straighten_step))
         throw Error(ErrorKind::usage, std::string(w.no_straighten ? "--no-straighten" : "--straighten-step") +
                                           ": --strategy thrifty does not straighten; give --no-shrink as well");

@@ -178,7 +178,8 @@ class External(unittest.TestCase):
         for arguments, fragment in ((["--support", "some"], "--support"), (["--support-gap", "0.2"], "--support external"), (["--bed-only"], "--support external"), (["--support-gap-layers", "1"], "--support external"), (["--pillars", "--brace", "5"], "--brace"),
                                     (["--pillars", "--length-bound"], "--length-bound"), (["--pillars", "--strategy", "thrifty", "--leaning-length", "0.39"], "--leaning-length"),
                                     (["--pillars", "--strategy", "thrifty", "--leaning-ratio", "0"], "--leaning-ratio"), (["--leaning-length", "1", "--strategy", "thrifty"], "--pillars"), (["--leaning-ratio", "5", "--strategy", "thrifty"], "--pillars"),
-                                    (["--pillars", "--leaning-length", "1"], "thrifty"), (["--pillars", "--leaning-ratio", "5", "--strategy", "thrifty", "--no-shrink"], "--no-shrink"),
+                                    (["--pillars", "--leaning-length", "1"], "thrifty"),
+                                    (["--pillars", "--leaning-length", "1", "--strategy", "thrifty", "--support", "external"], "--support external"), (["--pillars", "--leaning-ratio", "5", "--strategy", "thrifty", "--no-shrink"], "--no-shrink"),
                                     (["--support", "both", "--support-gap", "9"], "--support-gap")):
             done = self.run_program("generate", CUBE, "-o", "a.gcode", *arguments)
             self.assertEqual(done.returncode, 2, done.stderr)

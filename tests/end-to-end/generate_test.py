@@ -257,6 +257,18 @@ class Generate(unittest.TestCase):
         self.assertEqual((self.folder / "a.gcode").read_text(), "what the user had")
         self.assertEqual(self.files(), {"a.gcode"})
 
+    def test_size_of_parts_wound_both_ways(self):
+        # Two tetrahedra of 8^3 / 6 mm3, the second maybe inside out.
+        def tetrahedra(winding):
+            vertices = [f"v {x + x0} {y} {z}" for x0 in (0, 20) for x, y, z in ((0, 0, 0), (8, 0, 0), (0, 8, 0), (0, 0, 8))]
+            faces = [(1, 3, 2), (1, 2, 4), (2, 3, 4), (1, 4, 3)]
+            return "\n".join(vertices + [f"f {a} {b} {c}" for a, b, c in faces] + [f"f {a + 4} {b + 4} {c + 4}" for a, b, c in (f[::winding] for f in faces)]) + "\n"
+        for winding, expected in ((1, ", 170.7 mm3, 2 components, "), (-1, "8.00 mm, 2 components (1 inverted), ")):
+            (self.folder / "two.obj").write_text(tetrahedra(winding))
+            done = self.run_program("two.obj")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(expected, done.stdout.splitlines()[0])
+
     def test_a_full_temporary_folder_costs_time_but_no_result(self):
         # What the sweeps before the run made is kept there, if it has room, so that the best one need not be made again.
         for room in (0, 5000):

@@ -181,12 +181,15 @@ std::string summary(const RunReport& r, const Job& job) {
     std::string text;
     append_formatted(text, "%s: %zu triangles, %.2f x %.2f x %.2f mm, ", r.input_path.c_str(), r.input.triangles,
                      r.input.size_mm[0], r.input.size_mm[1], r.input.size_mm[2]);
-    if (r.input.closed())
-        append_formatted(text, "%.1f mm3, ", std::abs(r.input.volume_mm3));
-    else
+    // Both ways round, components would cancel out.
+    const bool both_ways = r.input.inverted_components > 0 && r.input.inverted_components < r.input.components;
+    if (!r.input.closed())
         text += "not closed, ";
-    append_formatted(text, "%s, %s\n", many(static_cast<long long>(r.input.components), "component").c_str(),
-                     many(static_cast<long long>(r.layers.size()), "layer").c_str());
+    else if (!both_ways)
+        append_formatted(text, "%.1f mm3, ", std::abs(r.input.volume_mm3));
+    text += many(static_cast<long long>(r.input.components), "component");
+    if (both_ways) append_formatted(text, " (%zu inverted)", r.input.inverted_components);
+    append_formatted(text, ", %s\n", many(static_cast<long long>(r.layers.size()), "layer").c_str());
     describe_verdict(text, r, job);
     append_formatted(text, "material  %.1f mm3: shell and covers %.1f, supports %.1f (%.0f mm of track)",
                      r.totals.material_mm3, r.totals.shell_volume_mm3, r.totals.support_volume_mm3,
