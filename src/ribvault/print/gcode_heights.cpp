@@ -90,6 +90,41 @@ struct InfillLayers {
     }
 };
 
+/// The height that the file says of most tracks at one z, those apart that have the layer's; 0 when it says none.
+std::int64_t said_height(LayerGroups::const_iterator at, LayerGroups::const_iterator end,
+                         const std::vector<char>& of_layer) {
+    std::int64_t said = 0;
+    std::size_t most = 0;
+    for (; at != end; ++at) {
+        if (at->first.height == 0) continue;
+        const auto count =
+            static_cast<std::size_t>(std::count_if(at->second.tracks.begin(), at->second.tracks.end(),
+                                                   [&](const GcodeTrack& t) { return !of_layer[t.feature]; }));
+        if (count > most) most = count, said = at->first.height;
+    }
+    return said;
+}
+
+/// The track of `from` once more, at the end of `to`.
+void append_track(const GcodeLayer& from, GcodeTrack track, GcodeLayer& to) {
+    const GcodePoint &a = from.points[track.a], &b = from.points[track.b];
+    const bool dot = track.a == track.b;
+    if (to.points.empty() || to.points.back() != a) to.points.push_back(a);
+    track.a = track.b = static_cast<std::uint32_t>(to.points.size() - 1);
+    if (!dot) to.points.push_back(b), ++track.b;
+    track.continues = track.continues && !to.tracks.empty() && to.tracks.back().b == track.a;
+    to.tracks.push_back(track);
+}
+
+/// What lies at which level, into `levels`, which know their z.
+void enter_layers(const LayerGroups& groups, std::vector<LevelTracks>& levels) {
+    auto level = levels.begin();
+    for (const auto& [key, layer] : groups) {
+        while (level->z != key.z) ++level;
+        level->entries.push_back(&layer);
+    }
+}
+
 }  // namespace
 
 void append_tracks(GcodeLayer& to, GcodeLayer& from) {
@@ -127,16 +162,8 @@ void resolve_heights(LayerGroups& groups, GcodePrint& print, const LayerHints& h
     for (auto at = groups.begin(); at != groups.end(); ++number) {
         const Int128 z = at->first.z;
         const std::int64_t top = in_pm(z);
-        auto end = at;
-        std::int64_t said = 0;  // the height of most tracks at this z, bridges and ironing apart
-        std::size_t most = 0;
-        for (; end != groups.end() && end->first.z == z; ++end) {
-            if (end->first.height == 0) continue;
-            const auto count =
-                static_cast<std::size_t>(std::count_if(end->second.tracks.begin(), end->second.tracks.end(),
-                                                       [&](const GcodeTrack& t) { return !of_layer[t.feature]; }));
-            if (count > most) most = count, said = end->first.height;
-        }
+        const auto end = std::find_if(at, groups.end(), [&](const auto& group) { return group.first.z != z; });
+        const std::int64_t said = said_height(at, end, of_layer);
         std::int64_t usual = said;
         if (usual == 0 && resolved.empty())
             usual = hints.first_layer_height.value_or(
@@ -151,8 +178,7 @@ void resolve_heights(LayerGroups& groups, GcodePrint& print, const LayerHints& h
         if (usual <= 0) usual = hints.layer_height.value_or(plain_height);  // at or below the bed
         for (; at != end; ++at) {
             GcodeLayer& from = at->second;
-            for (std::size_t k = 0; k < from.tracks.size(); ++k) {
-                const GcodeTrack& t = from.tracks[k];
+            for (const GcodeTrack& t : from.tracks) {
                 std::int64_t height = usual;
                 if (!of_layer[t.feature] && at->first.height != 0) {
                     if (!is_air(at->first.height)) height = at->first.height;
@@ -161,27 +187,14 @@ void resolve_heights(LayerGroups& groups, GcodePrint& print, const LayerHints& h
                     const GcodePoint &a = from.points[t.a], &b = from.points[t.b];
                     infill[t.feature].lengths[number] += std::hypot(to_double(b.x - a.x), to_double(b.y - a.y));
                 }
-                GcodeLayer& to = resolved[{z, height}];
-                if (to.points.empty() || to.points.back() != from.points[t.a]) to.points.push_back(from.points[t.a]);
-                GcodeTrack moved = t;
-                moved.a = moved.b = static_cast<std::uint32_t>(to.points.size() - 1);
-                if (t.a != t.b) {
-                    to.points.push_back(from.points[t.b]);
-                    ++moved.b;
-                }
-                moved.continues = t.continues && !to.tracks.empty() && to.tracks.back().b == moved.a;
-                to.tracks.push_back(moved);
+                append_track(from, t, resolved[{z, height}]);
             }
             from = {};
         }
         lower = top;
     }
     groups = std::move(resolved);
-    auto level = levels.begin();
-    for (const auto& [key, layer] : groups) {
-        while (level->z != key.z) ++level;
-        level->entries.push_back(&layer);
-    }
+    enter_layers(groups, levels);
     print.interleaved_layers = interleaved_layers(levels, std::max(tallest, thick_first) * decimal_per_pm);
     for (std::size_t f = 0; f < infill.size(); ++f)
         if (const int apart = infill[f].apart(); apart > hints.infill_layers)
