@@ -6,75 +6,100 @@
 
 namespace ribvault {
 
-ErodedSupports erode_supports(const SupportForest& forest, Unit step, Unit pillar_length) {
-    const std::size_t n = num_vertices(forest);
-    struct Edge {
-        std::size_t a, b;
-        bool alive = true;
-    };
-    std::vector<Edge> list;
-    std::vector<std::vector<std::uint32_t>> at(n);
-    for (auto [e, end] = edges(forest); e != end; ++e) {
-        const std::size_t a = source(*e, forest), b = target(*e, forest);
-        at[a].push_back(static_cast<std::uint32_t>(list.size()));
-        at[b].push_back(static_cast<std::uint32_t>(list.size()));
-        list.push_back({a, b});
-    }
-    SpareLengths lengths = spare_lengths(forest, pillar_length);
-    std::vector<Point> place(n);
-    std::vector<char> lost_branch(n, false);
-    for (std::size_t v = 0; v < n; ++v) place[v] = forest[v].at;
+namespace {
 
-    for (std::size_t tip = 0; step > 0 && tip < n; ++tip) {
-        if (at[tip].size() != 1 || forest[tip].root) continue;
-        double& spare = lengths.of(tip);
-        if (spare <= 0) continue;
-        double left = std::min(static_cast<double>(step), spare);
-        spare -= left;  // at least what goes
+class Erosion {
+public:
+    explicit Erosion(const SupportForest& forest)
+        : forest_(forest), at_(num_vertices(forest)), lost_branch_(num_vertices(forest), false) {
+        for (auto [v, end] = vertices(forest); v != end; ++v) place_.push_back(forest[*v].at);
+        for (auto [e, end] = edges(forest); e != end; ++e) {
+            const std::size_t a = source(*e, forest), b = target(*e, forest);
+            at_[a].push_back(static_cast<std::uint32_t>(walls_.size()));
+            at_[b].push_back(static_cast<std::uint32_t>(walls_.size()));
+            walls_.push_back({a, b});
+        }
+    }
+
+    bool is_tip(std::size_t v) const { return at_[v].size() == 1 && !forest_[v].root; }
+
+    /// Takes so much from the path at a tip, up to the next junction or root.
+    void draw_back(std::size_t tip, double left) {
         std::size_t v = tip;
-        std::uint32_t edge = at[tip][0];
+        std::uint32_t wall = at_[tip][0];
         while (true) {
-            const std::size_t next = list[edge].a == v ? list[edge].b : list[edge].a;
-            const double l = length(forest[next].at - forest[v].at);
+            const std::size_t next = walls_[wall].a == v ? walls_[wall].b : walls_[wall].a;
+            const double l = length(forest_[next].at - forest_[v].at);
             if (l > left) {
                 // One unit short of the limit, so that the rounding to the lattice stays within it.
-                const double t = left > 1 ? (left - 1) / l : 0;
-                place[v] = part_way(forest[v].at, forest[next].at, t);
-                break;
+                place_[v] = part_way(forest_[v].at, forest_[next].at, left > 1 ? (left - 1) / l : 0);
+                return;
             }
-            list[edge].alive = false;
+            walls_[wall].alive = false;
             left -= l;
-            if (forest[next].root || at[next].size() != 2) {
-                lost_branch[next] = true;
-                break;
+            if (forest_[next].root || at_[next].size() != 2) {
+                lost_branch_[next] = true;
+                return;
             }
-            edge = at[next][0] == edge ? at[next][1] : at[next][0];
+            wall = at_[next][0] == wall ? at_[next][1] : at_[next][0];
             v = next;
         }
     }
 
-    ErodedSupports result;
-    result.survives.resize(list.size());
-    std::vector<std::int64_t> vertex(n, -1);
-    const auto keep = [&](std::size_t v) {
-        if (vertex[v] < 0) {
-            vertex[v] = static_cast<std::int64_t>(add_vertex(forest[v], result.forest));
-            result.forest[static_cast<std::size_t>(vertex[v])].at = place[v];
-            result.pinned.push_back(lost_branch[v]);
+    /// What is left, and all roots.
+    ErodedSupports result() const {
+        ErodedSupports left;
+        std::vector<std::int64_t> vertex(place_.size(), -1);
+        const auto keep = [&](std::size_t v) {
+            if (vertex[v] < 0) {
+                vertex[v] = static_cast<std::int64_t>(add_vertex(forest_[v], left.forest));
+                left.forest[static_cast<std::size_t>(vertex[v])].at = place_[v];
+                left.pinned.push_back(lost_branch_[v]);
+            }
+            return static_cast<std::size_t>(vertex[v]);
+        };
+        for (const Wall& wall : walls_) {
+            left.survives.push_back(wall.alive && !used_up(wall));
+            if (!left.survives.back()) continue;
+            const std::size_t a = keep(wall.a), b = keep(wall.b);
+            add_edge(a, b, left.forest);
         }
-        return static_cast<std::size_t>(vertex[v]);
-    };
-    for (std::size_t e = 0; e < list.size(); ++e) {
-        // A tip that came to lie on its neighbour is gone; a wall that had no length before still joins two parts.
-        const bool used_up = place[list[e].a] == place[list[e].b] && forest[list[e].a].at != forest[list[e].b].at;
-        result.survives[e] = list[e].alive && !used_up;
-        if (!result.survives[e]) continue;
-        const std::size_t a = keep(list[e].a), b = keep(list[e].b);
-        add_edge(a, b, result.forest);
+        for (std::size_t v = 0; v < place_.size(); ++v)
+            if (forest_[v].root) keep(v);
+        return left;
     }
-    for (std::size_t v = 0; v < n; ++v)
-        if (forest[v].root && vertex[v] < 0) keep(v);
-    return result;
+
+private:
+    struct Wall {
+        std::size_t a, b;
+        bool alive = true;
+    };
+    /// Its tip came to lie on its neighbour; a wall that had no length before still joins two parts.
+    bool used_up(const Wall& wall) const {
+        return place_[wall.a] == place_[wall.b] && forest_[wall.a].at != forest_[wall.b].at;
+    }
+
+    const SupportForest& forest_;
+    std::vector<Wall> walls_;
+    std::vector<std::vector<std::uint32_t>> at_;  ///< walls, by vertex
+    std::vector<Point> place_;                    ///< of the vertices now
+    std::vector<char> lost_branch_;
+};
+
+}  // namespace
+
+ErodedSupports erode_supports(const SupportForest& forest, Unit step, Unit pillar_length) {
+    Erosion erosion(forest);
+    SpareLengths lengths = spare_lengths(forest, pillar_length);
+    for (std::size_t tip = 0; step > 0 && tip < num_vertices(forest); ++tip) {
+        if (!erosion.is_tip(tip)) continue;
+        double& spare = lengths.of(tip);
+        if (spare <= 0) continue;
+        const double by = std::min(static_cast<double>(step), spare);
+        spare -= by;  // at least what goes
+        erosion.draw_back(tip, by);
+    }
+    return erosion.result();
 }
 
 }  // namespace ribvault
