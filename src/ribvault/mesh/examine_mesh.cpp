@@ -137,14 +137,6 @@ std::size_t count_inverted(const std::vector<Component>& components) {
     }));
 }
 
-/// +1 when the placement keeps orientation, -1 when it mirrors.
-int handedness(const Placement& placement) {
-    Eigen::Matrix3i matrix = Eigen::Matrix3i::Zero();
-    for (int k = 0; k < 3; ++k)
-        matrix(k, placement.axis[static_cast<std::size_t>(k)]) = placement.sign[static_cast<std::size_t>(k)];
-    return matrix.row(0).cross(matrix.row(1)).dot(matrix.row(2));
-}
-
 }  // namespace
 
 MeshFacts examine(const Mesh& mesh, const Placement& placement) {

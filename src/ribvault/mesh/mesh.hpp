@@ -28,4 +28,13 @@ struct Placement {
     std::array<Rational, 3> offset{Rational(0), Rational(0), Rational(0)};
 };
 
+/// +1 when the placement keeps orientation, -1 when it mirrors.
+inline int handedness(const Placement& placement) {
+    int sign = placement.sign[0] * placement.sign[1] * placement.sign[2];
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = i + 1; j < 3; ++j)
+            if (placement.axis[i] > placement.axis[j]) sign = -sign;
+    return sign;
+}
+
 }  // namespace ribvault

@@ -34,6 +34,66 @@ std::string describe(const std::vector<GapClosing>& gaps) {
     throw Error(ErrorKind::bad_geometry, text.str());
 }
 
+/// What a crossed triangle leads through: from one mesh edge to another, material to the left seen from above.
+struct Link {
+    std::int32_t from, to;
+    bool operator<(const Link& o) const { return from != o.from ? from < o.from : to < o.to; }
+};
+
+/// Links joined to chains of mesh edges.
+class ChainTracer {
+public:
+    explicit ChainTracer(std::vector<Link> links) : links_(std::move(links)), used_(links_.size(), 0) {
+        std::sort(links_.begin(), links_.end());
+    }
+    std::vector<std::vector<std::int32_t>> closed, open;  ///< open: with both ends
+
+    /// Open chains first, from edges that more links leave than reach.
+    void run() {
+        std::vector<std::int32_t> reached(links_.size());
+        std::transform(links_.begin(), links_.end(), reached.begin(), [](const Link& l) { return l.to; });
+        std::sort(reached.begin(), reached.end());
+        for (std::size_t k = 0; k < links_.size();) {
+            std::size_t same = k;
+            while (same < links_.size() && links_[same].from == links_[k].from) ++same;
+            const auto arriving = std::equal_range(reached.begin(), reached.end(), links_[k].from);
+            for (std::ptrdiff_t surplus = static_cast<std::ptrdiff_t>(same - k) - (arriving.second - arriving.first);
+                 surplus > 0; --surplus) {
+                const std::size_t link = first_unused_from(links_[k].from);
+                if (link < links_.size()) walk(link);
+            }
+            k = same;
+        }
+        for (std::size_t k = 0; k < links_.size(); ++k)
+            if (!used_[k]) walk(k);
+    }
+
+private:
+    /// The first unused link that starts on the edge; none: links_.size().
+    std::size_t first_unused_from(std::int32_t edge) const {
+        auto it = std::lower_bound(links_.begin(), links_.end(), Link{edge, std::numeric_limits<std::int32_t>::min()});
+        for (; it != links_.end() && it->from == edge; ++it)
+            if (!used_[static_cast<std::size_t>(it - links_.begin())])
+                return static_cast<std::size_t>(it - links_.begin());
+        return links_.size();
+    }
+    void walk(std::size_t link) {
+        std::vector<std::int32_t> chain{links_[link].from};
+        while (link < links_.size()) {
+            used_[link] = 1;
+            chain.push_back(links_[link].to);
+            if (chain.back() == chain.front()) break;
+            link = first_unused_from(chain.back());
+        }
+        const bool is_closed = chain.back() == chain.front();
+        if (is_closed) chain.pop_back();
+        (is_closed ? closed : open).push_back(std::move(chain));
+    }
+
+    std::vector<Link> links_;
+    std::vector<char> used_;
+};
+
 }  // namespace
 
 /// Contours of one layer as mesh edges in order: closed ones, and chains with two ends.
@@ -123,19 +183,7 @@ Slicer::Slicer(const Mesh& mesh, const Placement& placement, const Settings& set
 }
 
 Slicer::Contours Slicer::trace(int layer) const {
-    const bool mirrored = [&] {
-        int sign = placement_.sign[0] * placement_.sign[1] * placement_.sign[2];
-        for (int i = 0; i < 3; ++i)
-            for (int j = i + 1; j < 3; ++j)
-                if (placement_.axis[static_cast<std::size_t>(i)] > placement_.axis[static_cast<std::size_t>(j)])
-                    sign = -sign;
-        return sign < 0;
-    }();
-    // Every crossed triangle leads from one mesh edge to another, material to the left seen from above.
-    struct Link {
-        std::int32_t from, to;
-        bool operator<(const Link& o) const { return from != o.from ? from < o.from : to < o.to; }
-    };
+    const bool mirrored = handedness(placement_) < 0;
     std::vector<Link> links;
     const auto index = static_cast<std::size_t>(layer);
     for (std::uint32_t k = layer_starts_[index]; k < layer_starts_[index + 1]; ++k) {
@@ -144,8 +192,8 @@ Slicer::Contours Slicer::trace(int layer) const {
         for (int c = 0; c < 3; ++c)
             above[c] =
                 planes_below_[static_cast<std::size_t>(mesh_.triangles(c, static_cast<Eigen::Index>(t)))] > layer;
-        int rising = -1,
-            falling = -1;  // the sides on which the triangle's boundary rises above and falls below the plane
+        // The sides on which the triangle's boundary rises above and falls below the plane.
+        int rising = -1, falling = -1;
         for (int c = 0; c < 3; ++c) {
             if (!above[c] && above[(c + 1) % 3]) rising = c;
             if (above[c] && !above[(c + 1) % 3]) falling = c;
@@ -155,47 +203,9 @@ Slicer::Contours Slicer::trace(int layer) const {
         if (mirrored) std::swap(link.from, link.to);
         links.push_back(link);
     }
-    std::sort(links.begin(), links.end());
-
-    std::vector<char> used(links.size(), 0);
-    const auto follow = [&](std::int32_t edge) -> std::size_t {  // the first unused link that starts on the edge
-        auto it = std::lower_bound(links.begin(), links.end(), Link{edge, std::numeric_limits<std::int32_t>::min()});
-        for (; it != links.end() && it->from == edge; ++it)
-            if (!used[static_cast<std::size_t>(it - links.begin())])
-                return static_cast<std::size_t>(it - links.begin());
-        return links.size();
-    };
-    Contours contours;
-    const auto walk = [&](std::size_t link) {
-        std::vector<std::int32_t> chain{links[link].from};
-        while (link < links.size()) {
-            used[link] = 1;
-            chain.push_back(links[link].to);
-            if (chain.back() == chain.front()) break;
-            link = follow(chain.back());
-        }
-        const bool closed = chain.back() == chain.front();
-        if (closed) chain.pop_back();
-        (closed ? contours.closed : contours.open).push_back(std::move(chain));
-    };
-    // Chains begin on edges that more links leave than reach.
-    std::vector<std::int32_t> reached(links.size());
-    std::transform(links.begin(), links.end(), reached.begin(), [](const Link& l) { return l.to; });
-    std::sort(reached.begin(), reached.end());
-    for (std::size_t k = 0; k < links.size();) {
-        std::size_t same = k;
-        while (same < links.size() && links[same].from == links[k].from) ++same;
-        const auto arriving = std::equal_range(reached.begin(), reached.end(), links[k].from);
-        for (std::ptrdiff_t surplus = static_cast<std::ptrdiff_t>(same - k) - (arriving.second - arriving.first);
-             surplus > 0; --surplus) {
-            const std::size_t link = follow(links[k].from);
-            if (link < links.size()) walk(link);
-        }
-        k = same;
-    }
-    for (std::size_t k = 0; k < links.size(); ++k)
-        if (!used[k]) walk(k);
-    return contours;
+    ChainTracer tracer(std::move(links));
+    tracer.run();
+    return {std::move(tracer.closed), std::move(tracer.open)};
 }
 
 namespace {
