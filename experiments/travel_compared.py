@@ -5,7 +5,7 @@ Usage: experiments/travel_compared.py [--models FOLDER] [--program build/bin/rib
 
 All at h = 0.2 mm, d = 0.4 mm, one perimeter, one cover, lightning at 15 % (PrusaSlicer) and at each of --line-distances (CuraEngine; 2.6 mm is
 15 %), at equal speeds (40 mm/s shell, 60 mm/s infill or supports, 20 mm/s first layer, 150 mm/s travel), no layer slower so that it sets, 3 mm retraction at 40 mm/s, no skirt.
-A travel is a run of moves without extrusion between two tracks, its length that in x and y; retractions are moves of the
+A travel is a run of moves without extrusion between two tracks (its moves are counted beside it: detours have several), its length that in x and y; retractions are moves of the
 filament backwards. Time: the same estimate for all three files, trapezoids with PrusaSlicer's default limits, here once more in
 Python so that it does not depend on the program; it ignores heating. On air: mm of track of which `ribvault verify --inside` finds nothing
 within rho below (for the models' external overhangs no infill is to blame); "-" where outer perimeters are left open, so that inside is nowhere. Slicers that are missing are left out, as are the
@@ -117,7 +117,7 @@ def seconds_of(moves):
 
 def measure(gcode, filament):
     at, speed, relative = [0.0] * 4, 0.0, False
-    travels = retractions = 0
+    travels = travel_moves = retractions = 0
     length = pushed = 0.0
     travelling, moves = False, []
     for line in open(gcode, errors="replace"):
@@ -144,11 +144,12 @@ def measure(gcode, filament):
             if xy and step[3] <= 0:
                 length += xy
                 travels += not travelling
+                travel_moves += 1
                 travelling = True
             elif xy:
                 travelling = False
         at = to
-    return {"travels": travels, "length": length, "retractions": retractions, "minutes": seconds_of(moves) / 60,
+    return {"travels": travels, "moves": travel_moves, "length": length, "retractions": retractions, "minutes": seconds_of(moves) / 60,
             "mm3": pushed * math.pi / 4 * filament ** 2}
 
 
@@ -199,7 +200,7 @@ def main():
         programs.append(("PrusaSlicer", None))
     if shutil.which("CuraEngine"):
         programs += [("CuraEngine", float(mm)) for mm in arguments.line_distances.split(",")]
-    print("| model | program | travels | travel mm | retractions | minutes | mm3 | mm on air |\n| --- | --- | --- | --- | --- | --- | --- | --- |")
+    print("| model | program | travels | moves of them | travel mm | retractions | minutes | mm3 | mm on air |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         models = [(n, f if isinstance(f, pathlib.Path) else arguments.models / f if arguments.models else None, o) for n, f, o in MODELS]
@@ -227,7 +228,7 @@ def main():
                     continue
                 m = measure(out, 1.75)
                 air = mm_on_air(arguments.program, out, folder / "verdict.json")
-                print(f"| {name} | {label} | {m['travels']} | {m['length']:.0f} | {m['retractions']} | {m['minutes']:.1f} | {m['mm3']:.0f} | {'-' if air is None else f'{air:.1f}'} |", flush=True)
+                print(f"| {name} | {label} | {m['travels']} | {m['moves']} | {m['length']:.0f} | {m['retractions']} | {m['minutes']:.1f} | {m['mm3']:.0f} | {'-' if air is None else f'{air:.1f}'} |", flush=True)
 
 
 if __name__ == "__main__":

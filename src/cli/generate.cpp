@@ -135,7 +135,7 @@ void add_geometry(CLI::App* command, Written& w) {
                            "trees stand free where that takes less track down to the bed (Section 5.4); thrifty: in "
                            "cavities they lean towards the shell");
     add_length(supports, "--leaning-length", w.leaning_length,
-               "track to which such a tree shrinks (default: five halves of the nozzle)")
+               "track to which such a tree shrinks (with --strategy thrifty; default: five halves of the nozzle)")
         ->needs(pillars);
     add_whole(supports, "--leaning-ratio", s.leaning_ratio,
               "or to its height over this, where that is more (default 10)")

@@ -126,7 +126,7 @@ class Options(unittest.TestCase):
         report.unlink()
         for name, value in (("--perimeters", "0x2"), ("--temperature", "0xC8"), ("--fan", "0x10"), ("--bed", "0x10,0x10,200"), ("--threads", "0x1"),
                             ("--threads", "1025"), ("--skirt", "1e1"), ("--bed", "250,250"), ("--bed", "250,250,250,"),
-                            ("--bed-corner", "1,2,3"), ("--first-layer-width", "0")):
+                            ("--bed-corner", "1,2,3"), ("--bed-corner", "9751,0"), ("--first-layer-width", "0")):
             self.assertIn(name, self.refused("generate", CUBE, name, value))
 
     def test_what_has_no_effect_is_refused(self):

@@ -214,4 +214,9 @@ TEST_CASE("options that cannot be are usage errors") {
         options.bed_y = length;
         check_refused(awkward(), options, ErrorKind::usage, "no size of a printer");
     }
+    options = {};
+    for (const std::array<double, 2> corner : {std::array{9751.0, 0.0}, {0.0, -10001.0}, {std::nan(""), 0.0}}) {
+        options.bed_corner = corner;
+        check_refused(awkward(), options, ErrorKind::usage, "--bed-corner: the bed must lie within 10000 mm");
+    }
 }

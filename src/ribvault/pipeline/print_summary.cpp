@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "ribvault/pipeline/verify_print.hpp"
+#include "ribvault/print/gcode_print.hpp"
 #include "ribvault/report/number_text.hpp"
 
 namespace ribvault {
@@ -15,6 +16,13 @@ std::string share(const Enclosure& part, double whole) {
 std::string where(const HangingFeature& f) {
     return "layer " + std::to_string(f.worst_layer) + ", x " + fixed(f.worst_at[0], 3) + " y " +
            fixed(f.worst_at[1], 3) + ", line " + std::to_string(f.worst_line);
+}
+
+/// Outside: inside they are infill.
+bool has_supports(const PrintReport& r) {
+    return std::any_of(r.features.begin(), r.features.end(), [](const HangingFeature& f) {
+        return f.tracks > 0 && f.kind == kind_name(FeatureKind::support);
+    });
 }
 
 void describe_features(std::string& text, const PrintReport& r) {
@@ -106,7 +114,10 @@ std::string summary(const PrintReport& r, const VerifyJob& job) {
     text += '\n';
     describe_verdict(text, r);
     if (!r.supported && !r.inside && r.flavour == "ribvault")
-        text += "           what hangs outside the object counts here; generate leaves it out, and so does --inside\n";
+        text += has_supports(r) ? "           give the gaps that the supports leave (--support-gap, "
+                                  "--support-gap-layers), as to generate\n"
+                                : "           what hangs outside the object counts here; generate leaves it out, and "
+                                  "so does --inside\n";
     if (!r.cut.empty()) append_formatted(text, "cut off    %s; judged up to there\n", r.cut.c_str());
     append_formatted(text, "time       %.2f s on %d threads, %.0f MB\n", r.seconds, r.threads, r.peak_memory_mb);
     const std::pair<const char*, const std::optional<std::filesystem::path>&> written[] = {

@@ -23,9 +23,9 @@ namespace ribvault {
 /// a gap is itself not printed; a branch from there starts where it is one width away, along the tree, from the nearest
 /// printed centre line, so that tracks touch without overlapping there too.
 ///
-/// With Gaps::proved and ρ from 0.36 d on, branches in cavities up to 3/2 widths long that would be printed from their
-/// junction are taken along by the path through it (print/bent_path.hpp), where all branches at that junction are such,
-/// there is room, and walls are of one line.
+/// With Gaps::proved and ρ from 0.361 support widths on, branches in cavities up to 3/2 widths long that would be
+/// printed from their junction are taken along by the path through it (print/bent_path.hpp), where all branches at that
+/// junction are such, there is room, and walls are of one line.
 ///
 /// Precondition: every component of the forest is a tree with at least one root.
 /// Postcondition: every point is a vertex of the forest or the end of a gap or of a bend (rounded once to the lattice);

@@ -63,7 +63,7 @@ Json settings(const Settings& s) {
                      : s.gaps == Gaps::paper ? "paper"
                                              : "none"},
             {"erosion_step_mm", to_mm(s.erosion_step)},
-            {"straighten", s.straighten},
+            {"straighten", s.straighten && s.propagation != Propagation::shrink},
             {"straighten_step_mm", to_mm(s.straighten_step)},
             {"branch_bonus", s.branch_bonus},
             {"branch_bonus_length_mm", to_mm(s.branch_bonus_length)},
