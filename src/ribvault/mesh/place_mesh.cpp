@@ -37,8 +37,7 @@ void check(const PlacementOptions& options) {
     for (const auto& [corner, size] :
          {std::pair(options.bed_corner[0], options.bed_x), std::pair(options.bed_corner[1], options.bed_y)})
         if (!(corner >= -to_mm(lattice_bound) && corner + size <= to_mm(lattice_bound)))
-            refuse("--bed and --bed-corner: the bed must lie within 10000 mm of x = y = 0; it reaches from " +
-                   shown(corner) + " to " + shown(corner + size) + " mm");
+            refuse("--bed and --bed-corner: the bed must lie within 10000 mm of x = y = 0");
 }
 
 /// Quarter turns of an angle in 0 .. 3, or -1 when it is no multiple of 90 degrees.
