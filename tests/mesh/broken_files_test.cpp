@@ -114,6 +114,13 @@ TEST_CASE("a facet of an STL text without its loop is not passed over") {
                   ErrorKind::unreadable, ", line ", "a facet without 'outer loop'");
 }
 
+TEST_CASE("a cut binary STL whose header says 'solid' is named as a binary one") {
+    const TemporaryFolder folder;
+    const std::string whole = binary_stl(box({0, 0, 0}, {1, 2, 3}), "solid cube");
+    check_refused(folder.write("cut.stl", whole.substr(0, 600)), ErrorKind::unreadable,
+                  ", byte 80: ", "declares 12 triangles, but the file's 600 bytes hold 10");
+}
+
 TEST_CASE("3MF that needs what is not read is refused, whatever else is in it") {
     const TemporaryFolder folder;
     const std::string cube = "<object id=\"1\">" + mesh_xml(weld(box({0, 0, 0}, {1, 1, 1}))) + "</object>";

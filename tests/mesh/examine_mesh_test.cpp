@@ -73,6 +73,11 @@ TEST_CASE("an open cube has a boundary") {
     CHECK(facts.unbalanced_edges == 4);
     CHECK_FALSE(facts.closed());
     CHECK(facts_of(cube + open).inverted_components == 0);
+    // Turned inside out it is a void inside out only where it is closed.
+    std::vector<Triangle> inward = box({12, 2, 2}, {14, 4, 4}, true);
+    CHECK(facts_of(cube + inward).inverted_components == 1);
+    inward.erase(inward.begin(), inward.begin() + 2);  // its floor; what is left encloses -4 mm3 about the middle
+    CHECK(facts_of(cube + inward).inverted_components == 0);
 }
 
 TEST_CASE("a turned triangle unbalances its three edges") {

@@ -45,6 +45,32 @@ TEST_CASE("any minority of turned triangles is turned back") {
     }
 }
 
+TEST_CASE("four triangles at an edge say nothing about each other's orientation, whatever their order") {
+    // Two cubes with a common edge, both well oriented.
+    Mesh one = cube(), two;
+    two.vertices.resize(3, 14);
+    two.triangles.resize(3, 24);
+    two.vertices.leftCols(8) = one.vertices;
+    std::vector<int> number;
+    int next = 8;
+    for (int v = 0; v < 8; ++v) {
+        const bool shared = (v & 3) == 0;  // the second cube's edge x = y = 0 is the first one's x = y = 1
+        number.push_back(shared ? v + 3 : next++);
+        two.vertices.col(number.back()) << (v & 1) + 1, (v >> 1 & 1) + 1, (v >> 2 & 1);
+    }
+    two.triangles.leftCols(12) = one.triangles;
+    for (int t = 0; t < 12; ++t)
+        for (int k = 0; k < 3; ++k) two.triangles(k, t + 12) = number[static_cast<std::size_t>(one.triangles(k, t))];
+    REQUIRE(examine(two, {}).closed());
+    REQUIRE(examine(two, {}).non_manifold_edges == 1);
+    std::mt19937 random(3);
+    for (int round = 0; round < 50; ++round) {
+        for (int t = 23; t > 0; --t) two.triangles.col(t).swap(two.triangles.col(static_cast<int>(random() % (t + 1))));
+        CHECK(orient_consistently(two) == 0);
+        CHECK(examine(two, {}).volume_mm3 == Approx(2));
+    }
+}
+
 TEST_CASE("a wholly inverted part keeps its orientation") {
     Mesh mesh = cube();
     mesh.triangles.row(0).swap(mesh.triangles.row(1));

@@ -28,6 +28,14 @@ std::map<std::string, std::string> in_every_format(const std::vector<Triangle>& 
         {"ascii.ply", ply(mesh, "ascii")},
         {"little.ply", ply(mesh, "binary_little_endian")},
         {"big.ply", ply(mesh, "binary_big_endian")}};
+    // Lines of the header that end in CR LF: the body begins behind both.
+    for (const std::string format : {"ascii", "binary_little_endian"}) {
+        std::string text = ply(mesh, format);
+        const std::size_t body = text.find("end_header\n") + 11;
+        std::string header;
+        for (const char c : text.substr(0, body)) header += c == '\n' ? "\r\n" : std::string(1, c);
+        files["windows_" + format + ".ply"] = header + text.substr(body);
+    }
     const std::string object = "<object id=\"1\" type=\"model\">" + mesh_xml(mesh) + "</object>";
     write_zip(folder.path() / "zip.3mf", {{"3D/3dmodel.model", model_xml(object, "<item objectid=\"1\"/>")}});
     files["zip.3mf"] = content(folder.path() / "zip.3mf");
