@@ -220,6 +220,21 @@ TEST_CASE("a slope that recedes by exactly ρ adds nothing, one that recedes by 
     CHECK(ceiling < (deep + 400) * (deep + 400));
 }
 
+TEST_CASE("without covers only what is printed above hangs over a cavity") {
+    Settings settings;
+    const Unit mm = units_per_mm;
+    const Cavity wide = make_cavity(0, {rectangle(-5 * mm, -5 * mm, 5 * mm, 5 * mm)}, settings);
+    Slice beam;
+    beam.rounded = {rectangle(-mm, -9 * mm, mm, 9 * mm)};
+    for (const int covers : {0, 1}) {
+        settings.top_layers = covers;
+        const double hanging =
+            signed_area(overhang_over_cavity(wide, beam, {}, settings)) / static_cast<double>(mm * mm);
+        CHECK(hanging == Approx(covers == 0 ? 2 * 9.6 : 9.6 * 9.6).epsilon(0.001));
+        CHECK(overhang_over_cavity(wide, Slice(), {}, settings).empty() == (covers == 0));
+    }
+}
+
 TEST_CASE("the cavities of a roof at 45 degrees need no support but under its tip") {
     const Mesh roof = weld(convex({{{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}},
                                    {{-10, -10, 0}, {10, -10, 0}, {0, 0, 10}},

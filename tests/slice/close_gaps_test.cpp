@@ -138,6 +138,11 @@ TEST_CASE("a chain whose ends meet or nearly meet is closed with itself, in its 
     CHECK(itself.contours[0].front() == p(0, 0));
     CHECK(itself.closings.size() == 1);
     CHECK(itself.open.empty());
+    // Where they meet nothing is closed.
+    const ClosedGaps met = close_gaps({{p(0, 0), p(9, 0), p(9, 9), p(0, 0)}}, 0, mm);
+    CHECK(met.contours.size() == 1);
+    CHECK(met.closings.empty());
+    CHECK(met.open.empty());
     // Two starts at one place: material lies to the left of both chains, so they cannot follow one another.
     const ClosedGaps apart = close_gaps({{p(0, 0), p(9, 0)}, {p(0, 0), p(0, 9)}}, 0, mm);
     CHECK(apart.contours.empty());

@@ -63,6 +63,36 @@ TEST_CASE("with a removal gap walls keep g + r off every corner and edge of the 
     }
 }
 
+TEST_CASE("where layers are left empty walls keep off the slices of all of them") {
+    Settings settings;
+    settings.support = Support::external;
+    settings.support_gap = 20000;
+    const auto square = [](int layer, Unit x) {
+        return std::make_shared<const Slice>(slice_of(layer, {rectangle(x - 100000, -100000, x + 100000, 100000)}));
+    };
+    const Region walls = off_the_object({square(1, -1000000), square(2, 0), square(3, 1000000)}, frame, settings);
+    const PointLocation location(edges_of(walls), units_per_mm);
+    for (const Unit x : {-1000000, 0, 1000000}) {
+        CHECK(location.locate({x, 0}) == Side::outside);
+        CHECK(location.locate({x, 139999}) == Side::outside);  // 0.2 mm and half a track from the side
+        CHECK(location.locate({x, 142000}) == Side::inside);
+    }
+}
+
+TEST_CASE("over the outside hangs no part of the cavity above, where that has no floor") {
+    Settings settings;
+    const Slice column = slice_of(0, {rectangle(-500000, -500000, 500000, 500000)});
+    const Region plate{rectangle(-500000, -500000, 1500000, 500000)};
+    const Cavity room = make_cavity(1, {rectangle(600000, -400000, 1400000, 400000)}, settings);
+    const auto area = [&](int bottom_layers) {
+        settings.bottom_layers = bottom_layers;
+        return area_mm2(overhang_outside(make_outside(column, frame, settings),
+                                         make_outside(slice_of(1, plate), frame, settings), room, settings));
+    };
+    CHECK(area(1) == Approx(10 * 9.8).epsilon(0.001));
+    CHECK(area(0) == Approx(10 * 9.8 - 8 * 8).epsilon(0.001));
+}
+
 TEST_CASE("what hangs over the outside is the slice above farther than rho from the slice") {
     const Settings settings;
     const Slice column = slice_of(0, {rectangle(-500000, -500000, 500000, 500000)});

@@ -217,6 +217,10 @@ TEST_CASE("holes belong to the solid next around them, whatever the order of the
             REQUIRE(polygon.number_of_holes() == 1);
             const double outer = polygon.outer_boundary().bbox().xmax();
             REQUIRE(polygon.holes_begin()->bbox().xmax() == outer - 1);
+            REQUIRE(polygon.outer_boundary().is_counterclockwise_oriented());
+            REQUIRE(polygon.holes_begin()->is_clockwise_oriented());
         }
+        // Inside out the same is solid.
+        for (ExactContour& c : squares) c = reversed(c);
     }
 }
