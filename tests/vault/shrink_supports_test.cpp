@@ -173,6 +173,36 @@ TEST_CASE("what a zipped corner leaves of a wall and its stem survive with it, a
     CHECK(joints > 0);
 }
 
+TEST_CASE("a corner into which another wall reaches is not zipped up") {
+    const auto fork_and = [](Unit tip) {
+        return forest_of({{{0, 1000000}, {400000, 1100000}, {400000, 900000}, {2000000, 1000000}, {tip, 1000000}},
+                          {0, 3},
+                          {{0, 1}, {0, 2}, {3, 4}}});
+    };
+    const SupportForest far = shrink_supports(fork_and(300000), square(), 20000).forest,
+                        near = shrink_supports(fork_and(20000), square(), 20000).forest;
+    CHECK(num_edges(far) == 4);
+    CHECK(num_edges(near) == 3);
+    CHECK(crossings(near).count == 0);
+}
+
+TEST_CASE("the stem of a zipped corner is wide where one of its walls was, and carries what stood on the taller one") {
+    for (const std::size_t of : {1u, 2u}) {
+        SupportForest fork = forest_of({{{0, 1000000}, {400000, 1100000}, {400000, 900000}}, {0}, {{0, 1}, {0, 2}}});
+        fork[0].standing = fork[of].standing = 60, fork[3 - of].standing = 20;
+        fork[of].wide = true;
+        const SupportForest zipped = shrink_supports(fork, square(), 20000).forest;
+        int joints = 0;
+        for (auto [v, end] = vertices(zipped); v != end; ++v) {
+            if (out_degree(*v, zipped) != 3) continue;
+            ++joints;
+            CHECK(zipped[*v].wide);
+            CHECK(zipped[*v].standing == 60);
+        }
+        CHECK(joints == 1);
+    }
+}
+
 TEST_CASE("fans of narrow corners at both ends of their walls keep within the step") {
     Random g(311);
     int zipped = 0;
