@@ -90,12 +90,17 @@ TEST_CASE("a track that is not judged holds no bridge", "[bridges]") {
     const PrintedLayer late{{track(0, 0, 3, 0), track(3, 0, 10, 0)}};
     CHECK(bridges(late, {0, 1}, 6).size() == 1);
     CHECK(bridges(late, {0, 1}, 6, {0, 1}).empty());
+    const PrintedLayer early{{track(0, 0, 7, 0), track(7, 0, 10, 0)}};
+    CHECK(bridges(early, {0, 1}, 6).size() == 1);
+    CHECK(bridges(early, {0, 1}, 6, {1, 0}).empty());
 }
 
 TEST_CASE("what is left without a bridge is held up and lies on the track", "[bridges]") {
-    for (const bool joined : {false, true}) {
+    // Of one track, with joints over the air, and with joints less than a width before the air.
+    for (const double joint : {0.0, 2.5, 2.2}) {
+        const bool joined = joint > 0;
         const PrintedLayer upper =
-            joined ? PrintedLayer{{track(0, 0, 2.5, 0), track(2.5, 0, 7.5, 0), track(7.5, 0, 10, 0)}}
+            joined ? PrintedLayer{{track(0, 0, joint, 0), track(joint, 0, 10 - joint, 0), track(10 - joint, 0, 10, 0)}}
                    : PrintedLayer{{track(0, 0, 10, 0)}};
         const std::vector<char> continues = joined ? std::vector<char>{0, 1, 1} : std::vector<char>{0};
         PrintedOptions lines;

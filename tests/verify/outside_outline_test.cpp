@@ -36,6 +36,9 @@ TEST_CASE("a track is cut exactly where it crosses the outline") {
     PrintedLayer wide = above({piece({1, 1}, {4, 2})});
     wide.tracks[0].width = 7 * lower.tracks[0].width;
     CHECK(stretches_outside(wide, lower)[0].width == lower.tracks[0].width);
+    PrintedLayer uneven = lower;
+    uneven.tracks[1].width = Rational(3, 10), uneven.tracks[2].width = Rational(1, 2);
+    CHECK(stretches_outside(wide, uneven)[0].width == Rational(3, 10));
     const auto extruded = extruded_outside(wide, lower);
     REQUIRE(extruded.size() == 1);
     CHECK(extruded[0].a == outside[0].a);
@@ -62,7 +65,10 @@ TEST_CASE("holes are outside, and an outline that does not close is none") {
     CHECK(outside[0].a == PrintedPoint{3, 4});
     CHECK(outside[0].b == PrintedPoint{6, 4});
     lower.tracks.pop_back();
-    CHECK(stretches_outside(above({piece({1, 4}, {8, 4})}), lower).size() == 1);
+    const auto whole = stretches_outside(above({piece({1, 4}, {8, 4})}), lower);
+    REQUIRE(whole.size() == 1);
+    CHECK(whole[0].a == PrintedPoint{1, 4});
+    CHECK(whole[0].b == PrintedPoint{8, 4});
 }
 
 TEST_CASE(
