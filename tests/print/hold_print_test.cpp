@@ -6,6 +6,7 @@
 
 #include "print/random_forest.hpp"
 #include "ribvault/print/drop_tiny_steps.hpp"
+#include "ribvault/print/gap_strips.hpp"
 #include "ribvault/print/printed_tracks.hpp"
 #include "ribvault/print/wide_walls.hpp"
 #include "ribvault/vault/erode_supports.hpp"
@@ -255,6 +256,28 @@ TEST_CASE("spare strips are printed where something stands on them, and nowhere 
     held = hold_print(shell, {}, &above, {});
     CHECK(judge_print(above, *held.printed, {}).supported);
     CHECK(strips(held).size() == 1);
+}
+
+TEST_CASE("a strip is printed under what its material reaches, up to a unit") {
+    // 0.3 mm wide: what hangs and may be held up from 0.2 mm away is so from 0.35 mm beside its centre line.
+    for (const Unit aside : {35000, 35001}) {
+        LayerPlan plan;
+        plan.spare.push_back(track(TrackKind::thin_wall, false, {{0, 0}, {0, 10 * mm}}));
+        plan.spare.front().paths.front().width = 30000;
+        const Point hanging{aside, 5 * mm};
+        CHECK(print_strips_under({{{hanging, hanging}, 20000}}, 40000, plan) == (aside == 35000));
+        CHECK(plan.tracks.size() == (aside == 35000 ? 1u : 0u));
+    }
+}
+
+TEST_CASE("only walls in cavities reach over a strip") {
+    for (const bool outside : {false, true}) {
+        SupportForest forest;
+        add_edge(add_vertex(SupportVertex{.at = {55000, 10 * mm}, .root = true, .outside = outside}, forest),
+                 add_vertex(SupportVertex{.at = {5 * mm, 10 * mm}, .outside = outside}, forest), forest);
+        reach_over_strips(square_shell(), 40000, forest);
+        CHECK(num_vertices(forest) == (outside ? 2u : 3u));
+    }
 }
 
 TEST_CASE("a wall goes on through a strip in which nothing is printed until it overlaps the perimeter") {

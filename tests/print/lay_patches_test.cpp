@@ -117,6 +117,16 @@ TEST_CASE(
     CHECK(plan.tracks[1].paths[0].on_track);
 }
 
+TEST_CASE("a dot stays one where the way to it leads where tracks must not run") {
+    LayerPlan plan = plan_of({track(TrackKind::support, {{0, 0}, {mm, 0}})});
+    const PlanTracks on(plan);
+    const auto left_of_tip = [](TrackKind, const Segment& way) { return std::max(way.a.x, way.b.x) <= mm; };
+    CHECK(lay_patches({dot(mm / 2, 9000), dot(mm + 10000, 0)}, on, plan, d, left_of_tip) == 2 * 9000);
+    REQUIRE(plan.tracks.size() == 2);
+    CHECK(plan.tracks[0].paths[0].points == Points{{0, 0}, {mm / 2, 0}, {mm / 2, 9000}, {mm / 2, 0}, {mm, 0}});
+    CHECK(plan.tracks[1].paths[0].points == Points{{mm + 10000, 0}});
+}
+
 TEST_CASE("a dot on a track needs nothing, one just beside it a step; on a narrower strip it stays a dot") {
     const auto of_width = [](Unit width) {
         LayerPlan plan = plan_of({track(TrackKind::thin_wall, {{0, 0}, {mm, 0}})});

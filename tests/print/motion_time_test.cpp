@@ -79,6 +79,15 @@ TEST_CASE("limits of an axis slow what uses it") {
     CHECK(motion_seconds({{{0, 0, 2.5, 0}, 100}}, l) == Approx(1).epsilon(0.001));
 }
 
+TEST_CASE("tracks, travels and retractions each have their own acceleration") {
+    MotionLimits l = limits_of(0, 1e-9);
+    l.print_acceleration = 1000, l.travel_acceleration = 500, l.retract_acceleration = 2000;
+    CHECK(motion_seconds({move(100, 0, 100, 5)}, l) == Approx(1 + 100 / 1000.0).epsilon(1e-6));
+    CHECK(motion_seconds({move(100, 0, 100)}, l) == Approx(1 + 100 / 500.0).epsilon(1e-6));
+    CHECK(motion_seconds({move(0, 0, 50, -10)}, l) == Approx(10 / 50.0 + 50 / 2000.0).epsilon(1e-6));
+    CHECK(motion_seconds({move(0, 0, 50, 10)}, l) == Approx(10 / 50.0 + 50 / 2000.0).epsilon(1e-6));
+}
+
 TEST_CASE("the estimate agrees with PrusaSlicer's own within 10 % on its G-code", "[slow]") {
     namespace fs = std::filesystem;
     if (std::system("command -v prusa-slicer > /dev/null 2>&1") != 0) {

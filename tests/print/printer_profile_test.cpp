@@ -152,6 +152,41 @@ TEST_CASE("a PrusaSlicer bundle: the presets it names, with what they inherit; t
     CHECK_FALSE(ignored("layer_height"));
 }
 
+TEST_CASE("a profile's own start and end G-code take the place of the usual ones, line after line") {
+    const PrinterSettings p = read_profile(
+        "nozzle_temperature = 200\nbed_temperature = 50\nstart_gcode = G28\nstart_gcode = G29\nend_gcode = M81\n",
+        "p.ini");
+    CHECK(p.start_gcode == "G28\nG29\n");
+    CHECK(p.end_gcode == "M81\n");
+}
+
+TEST_CASE("of a PrusaSlicer bundle that names no presets the last of each kind counts, none that is only inherited") {
+    Settings s;
+    TrackSettings t;
+    PrinterSettings p;
+    import_prusaslicer("[print:a]\nperimeters = 2\n[print:b]\nperimeters = 3\n[print:*common*]\nperimeters = 9\n",
+                       "b.ini", s, t, p);
+    CHECK(s.perimeters == 3);
+    // A preset without a name is none.
+    CHECK(import_prusaslicer("[print:a]\nperimeters = 2\n[presets]\nprint =\n", "b.ini", s, t, p).ignored.empty());
+    CHECK(s.perimeters == 2);
+    import_prusaslicer("max_print_height = 180\nstart_gcode = G0 Z[max_print_height]\n", "b.ini", s, t, p);
+    CHECK(gcode_header({}, {}, p, {}).find("\nG0 Z180\n") != std::string::npos);
+}
+
+TEST_CASE("the header's printing time in days, hours, minutes and seconds, as PrusaSlicer writes it") {
+    PrintFacts facts;
+    const auto time = [&](double seconds) {
+        facts.seconds = seconds;
+        const std::string header = gcode_header({}, {}, {}, facts), key = "estimated printing time (normal mode) = ";
+        const std::size_t at = header.find(key) + key.size();
+        return header.substr(at, header.find('\n', at) - at);
+    };
+    CHECK(time(59.4) == "59s");
+    CHECK(time(3600) == "1h 0m 0s");
+    CHECK(time(2 * 86400 + 3 * 3600 + 4 * 60 + 5) == "2d 3h 4m 5s");
+}
+
 TEST_CASE("what a PrusaSlicer config says and cannot be, or names and does not have, is said") {
     Settings s;
     TrackSettings t;

@@ -28,9 +28,10 @@ TEST_CASE("malformed lines: which line, and what was expected", "[gcode][errors]
     CHECK_THAT(complaint(good + "G1 X1 {temperature}\n"), Contains("line 4") && Contains("'{temperature}'"));
     for (const char* bare : {"X20 E1\n", "x 20 e1\n", "F1200 X20 E1\n", "N7 X20Y5 E1*12\n"})
         CHECK_THAT(complaint(good + bare), Contains("line 4") && Contains("expected G0 to G3"));
-    for (const char* two : {"G90 G1 X20 E1\n", "N7 G53 G1 X20 E1*12\n", "G1 Y10 G1 X20 E1\n", "G1 X20 E1 G91\n",
-                            "M83 G1 X20 E1\n", "T0 G1 X20 E1\n", "G92 E0 G1 X20\n", "M82 G90\n",
-                            "M204 S800 G1 X20 E1\n", "M400 G1 X20 E1\n", "G4 P1 G1 X20 E1\n"})
+    for (const char* two :
+         {"G90 G1 X20 E1\n", "N7 G53 G1 X20 E1*12\n", "G1 Y10 G1 X20 E1\n", "G1 X20 E1 G91\n", "G1 X20 E1 G20\n",
+          "G1 X20 E1 G21\n", "M83 G1 X20 E1\n", "T0 G1 X20 E1\n", "G92 E0 G1 X20\n", "M82 G90\n",
+          "M204 S800 G1 X20 E1\n", "M400 G1 X20 E1\n", "G4 P1 G1 X20 E1\n"})
         CHECK_THAT(complaint(good + two), Contains("line 4") && Contains("a second command"));
     for (const char* hidden :
          {"\xC2\xA0G1 X20 E1\n", "\fG1 X20 E1\n", ":G1 X20 E1\n", "\"G1 X20 E1\n", "/ G1 X20 E1\n"})

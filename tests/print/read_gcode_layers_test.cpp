@@ -343,6 +343,9 @@ TEST_CASE("lines printed on the bed before the lowest layer are part of it", "[g
     // What is printed so high up is not on the bed, nor is it after the lowest layer.
     CHECK(read("M83\nG1 Z2\nG1 X10 E1\n" + object).layers.size() == 4);
     CHECK(read("M83\nG1 X10\n" + object + "G1 Z.28\nG1 X10 E1\n").layers.size() == 4);
+    // Nor are lines at two heights, nor a height at which a layer of the object lies as well.
+    CHECK(read("M83\nG1 Z.28\nG1 X10 E1\nG1 Z.34\nG1 X5 E1\n" + object).layers.size() == 5);
+    CHECK(read("M83\nG1 Z.3\nG1 X10 E1\nG1 Z.2\nG1 X0 E1\nG1 Z.3\nG1 X10 E1\nG1 Z.5\nG1 X0 E1\n").layers.size() == 3);
 }
 
 TEST_CASE("infill of unsaid height that most layers leave out is told of, and as thick as the option says", "[gcode]") {

@@ -87,3 +87,20 @@ TEST_CASE("skirt: loops around everything at its distance") {
     CHECK(reach_of_skirt_and_brim({}, tracks) == 380000);
     for (Point p : {Point{mm, mm}, Point{22 * mm, mm}}) CHECK(winding_number({skirt[1].points}, p) == 1);
 }
+
+TEST_CASE("a skirt keeps its distance from the brim, and goes around supports that stand beside the object") {
+    TrackSettings tracks;
+    tracks.skirt_loops = 1, tracks.brim_width = 2 * mm;
+    const auto skirt = [&](const std::vector<Segment>& supports) {
+        return skirt_and_brim(two, {}, tracks, supports).front();
+    };
+    CHECK(std::abs(distance(segments(skirt({})), segments(two)) - (200000 + 320000)) < 1100);
+    CHECK(reach_of_skirt_and_brim({}, tracks) == 200000 + 340000);
+    const Point far{-30 * mm, 5 * mm};
+    CHECK(winding_number({skirt({}).points}, far) == 0);
+    const ToolPath around = skirt({{far, far + Point{0, mm}}});
+    CHECK(winding_number({around.points}, far) == 1);
+    // Half a track of the support, the brim, the distance and half a track of the skirt.
+    CHECK(std::abs(distance(segments(around), std::vector<Segment>{{far, far + Point{0, mm}}}) -
+                   (20000 + 200000 + 320000)) < 1100);
+}

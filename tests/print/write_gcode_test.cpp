@@ -319,6 +319,69 @@ TEST_CASE("a layer that would set too little is printed slower, but not slower t
     CHECK(at(20 * mm, slow).body == fast.body);
 }
 
+TEST_CASE("a first layer with a skirt takes the least time, the skirt's share of it included") {
+    PrinterSettings printer;
+    printer.min_layer_time = 60, printer.min_print_speed = 1, printer.first_layer_speed = 20;
+    const LayerPaths layer = layer_of({path_of(TrackKind::cover, {{0, 0}, {20 * mm, 0}})}, 0);
+    const std::vector<ToolPath> skirt{{TrackKind::skirt, 40000, false, {{0, mm}, {200 * mm, mm}}}};
+    CHECK(gcode_layer(layer, {}, {}, printer, skirt).statistics.seconds == Approx(60).epsilon(0.011));
+}
+
+TEST_CASE("what was printed adds up, every number of it") {
+    PrintStatistics one;
+    double n = 0;
+    for (std::size_t k = 0; k < track_kinds; ++k) one.length[k] = ++n, one.volume[k] = ++n;
+    for (double* number : {&one.filament, &one.prime_surplus, &one.travel, &one.open_air, &one.seconds}) *number = ++n;
+    one.travels = 101, one.retractions = 102, one.detours = 103;
+    PrintStatistics sum = one;
+    sum += one;
+    for (std::size_t k = 0; k < track_kinds; ++k) {
+        CHECK(sum.length[k] == 2 * one.length[k]);
+        CHECK(sum.volume[k] == 2 * one.volume[k]);
+    }
+    CHECK(sum.filament == 2 * one.filament);
+    CHECK(sum.prime_surplus == 2 * one.prime_surplus);
+    CHECK(sum.travel == 2 * one.travel);
+    CHECK(sum.open_air == 2 * one.open_air);
+    CHECK(sum.seconds == 2 * one.seconds);
+    CHECK(sum.travels == 202);
+    CHECK(sum.retractions == 204);
+    CHECK(sum.detours == 206);
+}
+
+TEST_CASE("a travel around a slit is a detour, one straight through the island is none") {
+    // A U of 30 mm with a slit 10 mm wide, and tracks on both sides of the slit.
+    const Region u{{{0, 0},
+                    {30 * mm, 0},
+                    {30 * mm, 30 * mm},
+                    {20 * mm, 30 * mm},
+                    {20 * mm, 10 * mm},
+                    {10 * mm, 10 * mm},
+                    {10 * mm, 30 * mm},
+                    {0, 30 * mm}}};
+    const auto statistics = [&](Unit y) {
+        const Contour perimeter{{20000, 20000},
+                                {30 * mm - 20000, 20000},
+                                {30 * mm - 20000, 30 * mm - 20000},
+                                {20 * mm + 20000, 30 * mm - 20000},
+                                {20 * mm + 20000, 10 * mm - 20000},
+                                {10 * mm - 20000, 10 * mm - 20000},
+                                {10 * mm - 20000, 30 * mm - 20000},
+                                {20000, 30 * mm - 20000}};
+        const LayerPaths layer = layer_of({{TrackKind::outer_perimeter, 40000, true, perimeter},
+                                           path_of(TrackKind::cover, {{mm, 2 * mm}, {9 * mm, y}}),
+                                           path_of(TrackKind::cover, {{21 * mm, y}, {29 * mm, 2 * mm}})});
+        PrinterSettings printer;
+        printer.longest_detour = 10;
+        return gcode_layer(layer, TravelMap(u, {}, layer), {}, printer).statistics;
+    };
+    const PrintStatistics around = statistics(13 * mm), straight = statistics(5 * mm);
+    CHECK(around.travels == 2);
+    CHECK(around.detours == 1);
+    CHECK(straight.travels == 2);
+    CHECK(straight.detours == 0);
+}
+
 TEST_CASE("a layer begins and ends retracted; only long travels retract between") {
     const auto two = [](Unit apart) {
         return layer_of(
