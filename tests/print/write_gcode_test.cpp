@@ -217,6 +217,8 @@ TEST_CASE("a stub that gets a dot's filament gets it at the flow of a track, and
         const double seconds = to_mm(stub) / (track.feed_rate / 60),
                      flow = track.filament * std::numbers::pi / 4 * 1.75 * 1.75 / seconds;
         CHECK(flow == Approx(60 * 0.4 * 0.2).epsilon(0.01));
+        const double dot_flow = parse(with_dot.text).tracks.at(1).feed_rate / 60 * std::numbers::pi / 4 * 1.75 * 1.75;
+        CHECK(dot_flow == Approx(60 * 0.4 * 0.2).epsilon(0.01));
         CHECK(with_stub.statistics.seconds == Approx(with_dot.statistics.seconds).margin(0.02));
     }
 }
