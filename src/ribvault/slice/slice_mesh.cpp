@@ -138,7 +138,7 @@ Slicer::Slicer(const Mesh& mesh, const Placement& placement, const Settings& set
             while (plane(count) <= exact) ++count;
         }
         planes_below_[v] = static_cast<std::int32_t>(count);
-        // A layer exists when its plane lies below the top: the top vertex itself may lie on a plane that cuts nothing.
+        // A plane through the top vertex alone cuts nothing; such layers are left out below.
         layers_ = std::max(layers_, static_cast<int>(count));
     }
 

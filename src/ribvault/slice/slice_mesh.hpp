@@ -28,7 +28,7 @@ public:
     /// Keeps a reference to the mesh. Time and memory linear in triangles and in how often planes cross them.
     Slicer(const Mesh& mesh, const Placement& placement, const Settings& settings);
 
-    /// Layers are the planes z_i below the top of the mesh.
+    /// Layers are the planes z_i up to the top of the mesh; in the top face it is what lies just below that counts.
     int layer_count() const { return layers_; }
     /// z_i in mm, exact.
     Rational plane_height(int layer) const;
