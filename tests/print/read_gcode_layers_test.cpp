@@ -52,6 +52,11 @@ TEST_CASE("the lowest layer is as high as it lies over the bed, whatever the usu
     CHECK(height(read(floats).layers[0]) == Approx(0.2));
     const std::string high = "M83\nG1 Z5\nG1 X10 E1\nG1 Z5.1\nG1 X0 E1\n";
     CHECK(height(read(high + "; layer_height = 0.1\n").layers[0]) == Approx(0.1));
+    // What is given counts where the file does not tell.
+    GcodeOptions given;
+    given.layer_height = 0.25;
+    CHECK(height(read(high, given).layers[0]) == Approx(0.25));
+    CHECK(height(read(floats, given).layers[0]) == Approx(0.2));
 }
 
 TEST_CASE("tops that differ by rounding are one layer", "[gcode]") {
