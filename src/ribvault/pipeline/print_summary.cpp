@@ -114,7 +114,7 @@ std::string summary(const PrintReport& r, const VerifyJob& job) {
     text += '\n';
     describe_verdict(text, r);
     if (!r.supported && !r.inside && r.flavour == "ribvault")
-        text += has_supports(r) ? "           give the gaps that the supports leave (--support-gap, "
+        text += has_supports(r) ? "           where supports leave gaps, give them (--support-gap, "
                                   "--support-gap-layers), as to generate\n"
                                 : "           what hangs outside the object counts here; generate leaves it out, and "
                                   "so does --inside\n";
