@@ -354,11 +354,16 @@ TEST_CASE("lines printed on the bed before the lowest layer are part of it", "[g
 }
 
 TEST_CASE("infill of unsaid height that most layers leave out is told of, and as thick as the option says", "[gcode]") {
-    std::string text = ";FLAVOR:Marlin\n;Layer height: 0.2\n;Generated with Cura_SteamEngine 4.13.0\nM83\n";
-    for (int k = 1; k <= 8; ++k) {
-        text += ";TYPE:WALL-OUTER\nG1 Z" + std::to_string(0.2 * k) + "\nG1 X10 E1\nG1 X5 E1\n";
-        text += k % 2 == 0 ? ";TYPE:FILL\nG1 X0 E1\n" : ";TYPE:FILL\nG1 X4.5 E.1\n";  // bits in those between
-    }
+    const auto text_of = [](int layers) {
+        std::string text = ";FLAVOR:Marlin\n;Layer height: 0.2\n;Generated with Cura_SteamEngine 4.13.0\nM83\n";
+        for (int k = 1; k <= layers; ++k) {
+            text += ";TYPE:WALL-OUTER\nG1 Z" + std::to_string(0.2 * k) + "\nG1 X10 E1\nG1 X5 E1\n";
+            text += k % 2 == 0 ? ";TYPE:FILL\nG1 X0 E1\n" : ";TYPE:FILL\nG1 X4.5 E.1\n";  // bits in those between
+        }
+        return text;
+    };
+    CHECK(read(text_of(6)).sparse_infill.apart == 1);  // three layers tell nothing
+    const std::string text = text_of(8);
     const GcodePrint thin = read(text);
     CHECK(thin.sparse_infill.feature == "FILL");
     CHECK(thin.sparse_infill.apart == 2);
