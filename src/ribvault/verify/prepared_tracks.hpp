@@ -20,14 +20,18 @@ struct PreparedTrack {
 PreparedTrack prepared_track(double ax, double ay, double bx, double by, double half);
 std::vector<PreparedTrack> prepare(std::span<const PrintedTrack> tracks);
 
-/// Squared distance of (x, y) to the centre line.
-inline double squared_centre_distance(const PreparedTrack& t, double x, double y) {
-    const double vx = x - t.ax, vy = y - t.ay;
-    double along = (vx * t.dx + vy * t.dy) * t.inverse_norm;
+/// Squared distance of v to the segment from the origin to d; `inverse_norm`: of d, 0 for a point.
+inline double squared_distance_to(double vx, double vy, double dx, double dy, double inverse_norm) {
+    double along = (vx * dx + vy * dy) * inverse_norm;
     along = along > 0 ? along : 0;
     along = along < 1 ? along : 1;
-    const double ex = vx - along * t.dx, ey = vy - along * t.dy;
+    const double ex = vx - along * dx, ey = vy - along * dy;
     return ex * ex + ey * ey;
+}
+
+/// Squared distance of (x, y) to the centre line.
+inline double squared_centre_distance(const PreparedTrack& t, double x, double y) {
+    return squared_distance_to(x - t.ax, y - t.ay, t.dx, t.dy, t.inverse_norm);
 }
 inline double centre_distance(const PreparedTrack& t, double x, double y) {
     return std::sqrt(squared_centre_distance(t, x, y));

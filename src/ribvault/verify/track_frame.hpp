@@ -40,12 +40,7 @@ struct TrackFrame {
 };
 
 inline double distance(const FrameStadium& f, double s, double y) {
-    const double vs = s - f.as, vy = y - f.ay;
-    double along = (vs * f.ds + vy * f.dy) * f.inverse_norm;
-    along = along > 0 ? along : 0;
-    along = along < 1 ? along : 1;
-    const double es = vs - along * f.ds, ey = vy - along * f.dy;
-    return std::sqrt(es * es + ey * ey);
+    return std::sqrt(squared_distance_to(s - f.as, y - f.ay, f.ds, f.dy, f.inverse_norm));
 }
 
 /// About where the line at y enters and leaves the stadium with its radius changed by `grow`: no certainty about
