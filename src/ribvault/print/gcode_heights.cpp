@@ -105,17 +105,6 @@ std::int64_t said_height(LayerGroups::const_iterator at, LayerGroups::const_iter
     return said;
 }
 
-/// The track of `from` once more, at the end of `to`.
-void append_track(const GcodeLayer& from, GcodeTrack track, GcodeLayer& to) {
-    const GcodePoint &a = from.points[track.a], &b = from.points[track.b];
-    const bool dot = track.a == track.b;
-    if (to.points.empty() || to.points.back() != a) to.points.push_back(a);
-    track.a = track.b = static_cast<std::uint32_t>(to.points.size() - 1);
-    if (!dot) to.points.push_back(b), ++track.b;
-    track.continues = track.continues && !to.tracks.empty() && to.tracks.back().b == track.a;
-    to.tracks.push_back(track);
-}
-
 /// What lies at which level, into `levels`, which know their z.
 void enter_layers(const LayerGroups& groups, std::vector<LevelTracks>& levels) {
     auto level = levels.begin();
@@ -126,6 +115,14 @@ void enter_layers(const LayerGroups& groups, std::vector<LevelTracks>& levels) {
 }
 
 }  // namespace
+
+void append_track(GcodeLayer& layer, const GcodePoint& from, const GcodePoint& to, GcodeTrack track) {
+    if (layer.points.empty() || layer.points.back() != from) layer.points.push_back(from);
+    track.a = track.b = static_cast<std::uint32_t>(layer.points.size() - 1);
+    if (from != to) layer.points.push_back(to), ++track.b;
+    track.continues = track.continues && !layer.tracks.empty() && layer.tracks.back().b == track.a;
+    layer.tracks.push_back(track);
+}
 
 void append_tracks(GcodeLayer& to, GcodeLayer& from) {
     if (to.tracks.empty()) {
@@ -187,7 +184,7 @@ void resolve_heights(LayerGroups& groups, GcodePrint& print, const LayerHints& h
                     const GcodePoint &a = from.points[t.a], &b = from.points[t.b];
                     infill[t.feature].lengths[number] += std::hypot(to_double(b.x - a.x), to_double(b.y - a.y));
                 }
-                append_track(from, t, resolved[{z, height}]);
+                append_track(resolved[{z, height}], from.points[t.a], from.points[t.b], t);
             }
             from = {};
         }

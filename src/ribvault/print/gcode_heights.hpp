@@ -31,6 +31,10 @@ inline constexpr Int128 decimal_per_pm = decimal_one / pm_per_mm;
 inline constexpr Int128 z_rounding = decimal_one / 200;  ///< 0.005 mm, as slicers round
 inline std::int64_t in_pm(Int128 z) { return static_cast<std::int64_t>(z / decimal_per_pm); }
 
+/// At the end of the layer a track like `track` between these points, a dot where they are equal. It continues the
+/// track before it if `track` does and that one ends at `from`.
+void append_track(GcodeLayer& layer, const GcodePoint& from, const GcodePoint& to, GcodeTrack track);
+
 /// All of `from` behind the tracks of `to`.
 void append_tracks(GcodeLayer& to, GcodeLayer& from);
 

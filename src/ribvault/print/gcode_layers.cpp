@@ -139,21 +139,11 @@ GcodeLayer& LayerCollector::group(const Extrusion& e) {
 }
 
 void LayerCollector::file(GcodeLayer& layer, const Extrusion& e, std::int64_t width, bool continues) {
-    const GcodePoint from = flat(e.from), to = flat(e.to);
-    if (layer.points.empty() || layer.points.back() != from) {
-        layer.points.push_back(from);
-        continues = false;
-    }
     GcodeTrack track;
-    track.a = track.b = static_cast<std::uint32_t>(layer.points.size() - 1);
-    if (from != to) {
-        layer.points.push_back(to);
-        ++track.b;
-    }
     track.line = e.line, track.feature = e.feature, track.chord = e.chord;
     track.width = track.width_below = width;
-    track.continues = continues && !layer.tracks.empty() && layer.tracks.back().b == track.a;
-    layer.tracks.push_back(track);
+    track.continues = continues;
+    append_track(layer, flat(e.from), flat(e.to), track);
 }
 
 void LayerCollector::extrude(const Extrusion& e) {
